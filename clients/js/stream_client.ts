@@ -464,7 +464,6 @@ export class StreamClient extends Emitter<StreamEvents> {
       quantizers: Array.from(this.steps.subarray(3)),
       recovered: view.getUint32(header + headerLayout.resumed, true) === resumed,
       viseme_share: Number.isNaN(share) ? null : share,
-      coding: 'packed',
     };
     this.emit('header', this.header);
   }

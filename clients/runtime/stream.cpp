@@ -106,7 +106,6 @@ void Stream::opened(double now) {
   Hello hello;
   hello.role = options_.role;
   hello.resume = resume_;
-  hello.coding = options_.coding;
   hello.take_over = options_.take_over;
   send(hello);
 }
@@ -116,7 +115,7 @@ void Stream::send(const Message& message) {
   if (options_.encode != nullptr) {
     options_.encode(message, steps_, to);
   } else {
-    FrameEncoder().encode(message, to);
+    encode_message(message, to);
   }
   outbox_.end_message();
 }
@@ -159,7 +158,7 @@ void Stream::receive(std::span<const std::uint8_t> bytes, double now) {
   if (bytes.size() > options_.max_message_bytes) {
     return fail({ErrorCode::too_large, "", "a message of " + std::to_string(bytes.size()) + " bytes"}, now);
   }
-  if (!bytes.empty() && is_packed_frames(bytes[0])) {
+  if (!bytes.empty() && is_frames(bytes[0])) {
     Status status = decoder_.decode_frames(bytes, newest_);
     if (!status) {
       newest_.frames.clear();

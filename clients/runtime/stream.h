@@ -32,7 +32,6 @@ struct StreamOptions {
   double batch = 0;               ///< ms
   std::size_t max_message_bytes = max_binary_message_bytes;
   std::optional<ResumePoint> resume;
-  StreamCoding coding = StreamCoding::packed;
   /// Writes a message in another form than the binary one, for programs that also speak JSON; null: binary. Such a
   /// program reads messages itself and gives them to `take`.
   void (*encode)(const Message&, const QuantizerSteps&, std::vector<std::uint8_t>& to) = nullptr;

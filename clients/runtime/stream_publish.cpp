@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "clients/runtime/stream.h"
+#include "protocol/cpp/face_frame.h"
 #include "protocol/cpp/kernel_values.h"
-#include "protocol/cpp/state_codec.h"
 
 namespace semblante::runtime {
 namespace {

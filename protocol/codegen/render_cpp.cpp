@@ -136,11 +136,6 @@ inline constexpr double max_real = std::numeric_limits<double>::max();
       "inline constexpr std::string_view binary_subprotocol = " + schema.at("subprotocols").at("binary").dump() + ";\n";
   out +=
       "inline constexpr std::string_view json_subprotocol = " + schema.at("subprotocols").at("json").dump() + ";\n\n";
-  out += "/// First bytes of the packed form; that of frames has the low seven bits of `sequence` added.\n";
-  for (const auto& [name, value] : schema.at("packed").items()) {
-    out += "inline constexpr std::uint8_t packed_" + name + " = " + value.dump() + ";\n";
-  }
-  out += "\n";
   for (const auto& [name, value] : schema.at("limits").items()) {
     out += "inline constexpr std::size_t " + name + " = " + value.dump() + ";\n";
   }

@@ -92,7 +92,7 @@ std::string fap_table() {
 }
 
 std::string fap_group_table() {
-  std::string out = header({"bit", "FAPs", "group"});
+  std::string out = header({"group", "FAPs", "what they move"});
   for (const auto& group : mpeg4::fap_groups) {
     if (group.number == 1) continue;
     out += row({number(group.number), range(group.first_fap, group.last_fap), std::string(group.name)});

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <stdexcept>
@@ -11,6 +12,8 @@ namespace {
 std::string bounds(const Json& field) {
   return field.contains("min") ? ", " + field.at("min").dump() + " to " + field.at("max").dump() : std::string();
 }
+
+constexpr const char* packed_form = "see \"Packed form\"";
 
 /// The binary form of a field that is there.
 std::string value_form(const Json& field) {
@@ -26,7 +29,7 @@ std::string value_form(const Json& field) {
   }
   if (type == "enum") return "u8, `" + text(field, "enum") + "`";
   if (type == "optional") return "u8, 0 or 1; if 1, a `" + text(field, "struct") + "`";
-  return "see \"" + std::string(type == "state" ? "State" : "Batches") + "\"";
+  return packed_form;  // state, frames
 }
 
 std::string wire_form(const Json& field) {
@@ -34,10 +37,13 @@ std::string wire_form(const Json& field) {
 }
 
 std::string field_table(const Json& record) {
+  const Json& fields = record.at("fields");
+  const bool is_batch =
+      std::any_of(fields.begin(), fields.end(), [](const Json& f) { return f.at("type") == "frames"; });
   std::string out = "| field | binary form | meaning |\n|---|---|---|\n";
-  for (const Json& field : record.at("fields")) {
-    out += "| `" + text(field, "name") + (required(field) ? "` (required)" : "`") + " | " + wire_form(field) + " | " +
-           documentation(field) + " |\n";
+  for (const Json& field : fields) {
+    out += "| `" + text(field, "name") + (required(field) ? "` (required)" : "`") + " | " +
+           (is_batch ? packed_form : wire_form(field)) + " | " + documentation(field) + " |\n";
   }
   return out;
 }

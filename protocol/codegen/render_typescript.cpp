@@ -1,4 +1,3 @@
-#include <cctype>
 #include <stdexcept>
 
 #include "protocol/codegen/render.h"
@@ -81,11 +80,7 @@ import type { FaceFrame, TimedFrame } from '../face_frame.ts';
   out += "export const protocolVersion = " + schema.at("version").dump() + ";\n";
   out += "export const binarySubprotocol = '" + text(schema.at("subprotocols"), "binary") + "';\n";
   out += "export const jsonSubprotocol = '" + text(schema.at("subprotocols"), "json") + "';\n\n";
-  for (const char* name : {"keyframe", "frames"}) {
-    out += "export const packed" + std::string(1, static_cast<char>(std::toupper(name[0]))) + (name + 1) +
-           "Type = " + schema.at("packed").at(std::string(name) + "_type").dump() + ";\n";
-  }
-  out += "\nexport const limits = {\n";
+  out += "export const limits = {\n";
   for (const auto& [name, value] : schema.at("limits").items()) out += "  " + name + ": " + value.dump() + ",\n";
   out += "} as const;\n\n";
   for (const Json& node : schema.at("enums")) {

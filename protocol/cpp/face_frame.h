@@ -10,6 +10,9 @@ namespace semblante {
 inline constexpr int first_low_level_fap = 3;
 inline constexpr int last_low_level_fap = 68;
 inline constexpr std::size_t low_level_fap_count = 66;
+inline constexpr std::uint8_t max_viseme = 14;
+inline constexpr std::uint8_t max_expression = 6;
+inline constexpr std::uint8_t max_blend = 63;  ///< of a viseme's blend and of intensities
 
 /// FAP 1: viseme(select1) * blend/63 + viseme(select2) * (1 - blend/63). Selects 0..14 (0 is silence), blend 0..63.
 struct VisemeBlend {
@@ -38,6 +41,9 @@ struct FaceFrame {
 
   friend bool operator==(const FaceFrame&, const FaceFrame&) = default;
 };
+
+/// Whether every member is within its documented range.
+bool is_valid(const FaceFrame& state);
 
 /// A frame with its time: whole milliseconds after the media time of its message or request.
 struct TimedFrame {

@@ -9,7 +9,6 @@
 #include "protocol/cpp/face_frame.h"
 #include "protocol/cpp/fap_file.h"
 #include "protocol/cpp/fap_number.h"
-#include "protocol/cpp/state_codec.h"
 
 namespace semblante {
 namespace {

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <type_traits>
 
+#include "protocol/cpp/byte_io.h"
 #include "protocol/cpp/frame_codec.h"
 #include "protocol/cpp/packed_codec.h"
-#include "protocol/cpp/state_codec.h"
 #include "protocol/cpp/utf8.h"
 
 namespace semblante {
@@ -14,8 +14,7 @@ namespace {
 /// Reads the fields of one message in order; keeps the first error and does not read further.
 class BinaryFieldReader {
  public:
-  BinaryFieldReader(std::span<const std::uint8_t> bytes, const std::optional<FaceFrame>& last)
-      : in_(bytes), last_(last) {}
+  explicit BinaryFieldReader(std::span<const std::uint8_t> bytes) : in_(bytes) {}
 
   [[nodiscard]] const std::optional<Error>& error() const { return error_; }
 
@@ -81,38 +80,6 @@ class BinaryFieldReader {
     if (error_ || ends_before(Presence::appended) || !flag(name)) return;
     real(name, value.emplace(), min, max, Presence::required);
   }
-  void state(const char* name, FaceFrame& state) {
-    if (error_) return;
-    state = FaceFrame{};
-    if (const auto status = read_state(in_, state, pointer(name)); !status) error_ = status.error();
-  }
-  void frames(const char* name, std::vector<TimedFrame>& frames) {
-    if (error_) return;
-    if (!last_) return fail(ErrorCode::mismatch, "sequence", "frames before a keyframe");
-    const std::uint64_t count = in_.varint();
-    if (ended(name)) return;
-    if (count == 0) return fail(ErrorCode::out_of_range, name, "must have at least one frame");
-    if (count > max_frames_per_message) return fail(ErrorCode::too_large, name, "too many frames in a message");
-    // A frame has at least two bytes, so this bounds the declared count by the remaining bytes.
-    if (count > in_.remaining() / 2) return fail(ErrorCode::truncated, name, "fewer frames than declared");
-    frames.reserve(count);
-    TimedFrame frame{0, *last_};
-    for (std::uint64_t i = 0; i < count; ++i) {
-      const std::string where = pointer(name) + "/" + std::to_string(i);
-      const std::uint64_t later = in_.varint();
-      if (in_.failed()) return fail(ErrorCode::truncated, name, "the message ends within a frame");
-      if (later > max_frame_time - frame.time) {
-        error_ = Error{ErrorCode::out_of_range, where + "/time", "more than a day after media_time"};
-        return;
-      }
-      frame.time += static_cast<std::uint32_t>(later);
-      if (const auto status = read_state(in_, frame.state, where); !status) {
-        error_ = status.error();
-        return;
-      }
-      frames.push_back(frame);
-    }
-  }
 
  private:
   /// Whether the message of a writer of an earlier version ends before this appended field.
@@ -135,14 +102,13 @@ class BinaryFieldReader {
   }
 
   byte_io::Reader in_;
-  const std::optional<FaceFrame>& last_;
   std::optional<Error> error_;
   std::string prefix_;  ///< pointer of the structure being read
 };
 
 template <class M>
-Result<Message> read_message(std::span<const std::uint8_t> body, const std::optional<FaceFrame>& last) {
-  BinaryFieldReader reader(body, last);
+Result<Message> read_message(std::span<const std::uint8_t> body) {
+  BinaryFieldReader reader(body);
   M message;
   visit_fields(message, reader);
   if (reader.error()) return *reader.error();
@@ -150,11 +116,10 @@ Result<Message> read_message(std::span<const std::uint8_t> body, const std::opti
 }
 
 template <class... M>
-Result<Message> read_by_type(std::span<const std::uint8_t> bytes, const std::optional<FaceFrame>& last,
-                             const std::variant<M...>* /*types*/) {
+Result<Message> read_by_type(std::span<const std::uint8_t> bytes, const std::variant<M...>* /*types*/) {
   std::optional<Result<Message>> result;
   const auto read = [&]<class T>(std::type_identity<T>) {
-    result = read_message<T>(bytes.subspan(1), last);
+    if constexpr (!is_packed<T>) result = read_message<T>(bytes.subspan(1));
     return true;
   };
   static_cast<void>(((MessageTraits<M>::type == bytes[0] && read(std::type_identity<M>())) || ...));
@@ -166,46 +131,25 @@ Result<Message> read_by_type(std::span<const std::uint8_t> bytes, const std::opt
 
 Result<Message> FrameDecoder::decode(std::span<const std::uint8_t> bytes) {
   if (bytes.empty()) return Error{ErrorCode::truncated, "/type", "the message is empty"};
+  if (is_frames(bytes[0])) {
+    Frames frames;
+    if (auto status = decode_frames(bytes, frames); !status) return std::move(status).error();
+    return Message(std::move(frames));
+  }
   if (bytes.size() > max_binary_message_bytes) return Error{ErrorCode::too_large, "", "over 256 KiB"};
-  if (is_packed_keyframe(bytes[0]) || is_packed_frames(bytes[0])) return decode_packed(bytes);
-  auto result = read_by_type(bytes, last_, static_cast<const Message*>(nullptr));
-  if (!result) return result;
-  if (const auto* keyframe = std::get_if<Keyframe>(&*result)) {
-    last_ = keyframe->state;
-    last_sequence_ = keyframe->sequence;
-    packed_.reset();
-  } else if (auto* frames = std::get_if<Frames>(&*result)) {
-    const std::uint64_t next = last_sequence_ + 1;
-    if (frames->sequence == 0) frames->sequence = next;
-    if (frames->sequence != next) {
-      return Error{ErrorCode::mismatch, "/sequence",
-                   "frame " + std::to_string(next) + " is expected, not " + std::to_string(frames->sequence)};
-    }
-    last_ = frames->frames.back().state;
-    last_sequence_ += frames->frames.size();
-  }
-  return result;
-}
-
-Result<Message> FrameDecoder::decode_packed(std::span<const std::uint8_t> bytes) {
-  if (is_packed_keyframe(bytes[0])) {
-    PackedState state;
-    auto keyframe = read_packed_keyframe(bytes, state);
-    if (!keyframe) return std::move(keyframe).error();
-    packed_ = state;
-    last_.reset();
-    return Message(*keyframe);
-  }
-  Frames frames;
-  if (auto status = decode_frames(bytes, frames); !status) return std::move(status).error();
-  return Message(std::move(frames));
+  if (!is_keyframe(bytes[0])) return read_by_type(bytes, static_cast<const Message*>(nullptr));
+  PackedState state;
+  auto keyframe = read_packed_keyframe(bytes, state);
+  if (!keyframe) return std::move(keyframe).error();
+  state_ = state;
+  return Message(*keyframe);
 }
 
 Status FrameDecoder::decode_frames(std::span<const std::uint8_t> bytes, Frames& to) {
-  assert(!bytes.empty() && is_packed_frames(bytes[0]));
+  assert(!bytes.empty() && is_frames(bytes[0]));
   if (bytes.size() > max_binary_message_bytes) return Error{ErrorCode::too_large, "", "over 256 KiB"};
-  if (!packed_) return Error{ErrorCode::mismatch, "/sequence", "packed frames before a packed keyframe"};
-  return read_packed_frames(bytes, *packed_, to);
+  if (!state_) return Error{ErrorCode::mismatch, "/sequence", "frames before a keyframe"};
+  return read_packed_frames(bytes, *state_, to);
 }
 
 }  // namespace semblante

@@ -3,10 +3,10 @@
 
 #include "core/json/json_cursor.h"
 #include "core/json/json_tree.h"
+#include "protocol/cpp/face_frame.h"
 #include "protocol/cpp/fap_number.h"
 #include "protocol/cpp/json_bridges.h"
 #include "protocol/cpp/json_codec.h"
-#include "protocol/cpp/state_codec.h"
 
 namespace semblante {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "protocol/cpp/face_frame.h"
 #include "protocol/cpp/json_codec.h"
 #include "protocol/cpp/json_number.h"
-#include "protocol/cpp/state_codec.h"
 
 namespace semblante {
 namespace {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "core/types/result.h"
@@ -9,7 +10,7 @@
 #include "protocol/cpp/messages.h"
 #include "protocol/cpp/packed_state.h"
 
-/// The packed form of keyframes and frames: predicted and entropy coded. SPEC.md, "Packed form".
+/// The binary form of keyframes and frames: predicted and entropy coded. SPEC.md, "Packed form".
 namespace semblante {
 
 /// Probabilities of a 1 in 4096ths, by context.
@@ -42,12 +43,16 @@ class PackedEncoder {
   const PackedTable* table_;
 };
 
-/// Whether a message is one of the packed form, by its first byte.
-constexpr bool is_packed_keyframe(std::uint8_t type) { return type == packed_keyframe_type; }
-constexpr bool is_packed_frames(std::uint8_t type) { return type >= packed_frames_type; }
+/// Whether messages of a type are coded by this file.
+template <class M>
+inline constexpr bool is_packed = std::is_same_v<M, Keyframe> || std::is_same_v<M, Frames>;
 
-/// Decodes a whole message of the packed form, including its type, from untrusted bytes. Time and memory are bounded by
-/// the number of frames, at most 1024. Errors have the pointer of the plain form and leave `state` unchanged.
+/// What a message is, by its first byte. That of `frames` has the low seven bits of their first number added.
+constexpr bool is_keyframe(std::uint8_t type) { return type == MessageTraits<Keyframe>::type; }
+constexpr bool is_frames(std::uint8_t type) { return type >= MessageTraits<Frames>::type; }
+
+/// Decodes a whole message, including its type, from untrusted bytes. Time and memory are bounded by the number of
+/// frames, at most 1024. Errors have the pointer of the JSON form and leave `state` unchanged.
 /// `mismatch` at "/sequence": the frames do not follow `state`.
 Result<Keyframe> read_packed_keyframe(std::span<const std::uint8_t> bytes, PackedState& state,
                                       const PackedTable& table = packed_tables::values);

@@ -25,7 +25,7 @@ void PackedEncoder::encode(const Frames& frames, std::vector<std::uint8_t>& to) 
   assert(frames.sequence == 0 || frames.sequence == state_.sequence + 1);
   assert(!frames.frames.empty() && frames.frames.size() <= max_frames_per_message);
   assert(frames.media_time <= max_media_time);
-  to.push_back(static_cast<std::uint8_t>(packed_frames_type | ((state_.sequence + 1) & 0x7FU)));
+  to.push_back(static_cast<std::uint8_t>(MessageTraits<Frames>::type | ((state_.sequence + 1) & 0x7FU)));
   RangeEncoder coder(to);
   PackedModel model(coder, *table_, state_);
   model.count(frames.frames.size());
@@ -45,7 +45,7 @@ void PackedEncoder::encode(const Frames& frames, std::vector<std::uint8_t>& to) 
 }
 
 std::vector<std::uint8_t> PackedEncoder::keyframe() const {
-  std::vector<std::uint8_t> bytes = {packed_keyframe_type};
+  std::vector<std::uint8_t> bytes = {MessageTraits<Keyframe>::type};
   byte_io::append_varint(bytes, state_.sequence);
   byte_io::append_varint(bytes, state_.media_time);
   RangeEncoder coder(bytes);

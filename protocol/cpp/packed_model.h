@@ -9,10 +9,10 @@
 #include <string>
 
 #include "core/tables/mpeg4.h"
+#include "protocol/cpp/face_frame.h"
 #include "protocol/cpp/messages.h"
 #include "protocol/cpp/packed_codec.h"
 #include "protocol/cpp/packed_state.h"
-#include "protocol/cpp/state_codec.h"
 
 namespace semblante {
 

@@ -139,8 +139,7 @@ answer::Stream::SubscribersByCoding by_coding(const streams::StreamInfo& stream)
   const auto of = [&](streams::Coding coding) {
     return stream.subscribers_by_coding[static_cast<std::size_t>(coding)];
   };
-  return {
-      .packed = of(streams::Coding::packed), .plain = of(streams::Coding::plain), .json = of(streams::Coding::json)};
+  return {.packed = of(streams::Coding::packed), .json = of(streams::Coding::json)};
 }
 
 /// The p99 of the lateness, ms: the upper bound of its bucket; null before anything was sent, and above the last bound.

@@ -7,6 +7,8 @@
 
 #include "protocol/cpp/byte_io.h"
 #include "protocol/cpp/frame_codec.h"
+#include "protocol/cpp/packed_codec.h"
+#include "server/recordings/recording_version_1.h"
 
 namespace semblante::recordings {
 namespace {
@@ -27,8 +29,7 @@ std::uint64_t get_u64(const std::uint8_t* from) {
   return get_u32(from) | static_cast<std::uint64_t>(get_u32(from + 4)) << 32U;
 }
 
-void append_message(std::vector<std::uint8_t>& to, FrameEncoder& encoder, const Message& message) {
-  const auto bytes = encoder.encode(message);
+void append_message(std::vector<std::uint8_t>& to, const std::vector<std::uint8_t>& bytes) {
   byte_io::append_varint(to, bytes.size());
   to.insert(to.end(), bytes.begin(), bytes.end());
 }
@@ -69,24 +70,46 @@ class Messages {
  public:
   explicit Messages(Bytes bytes) : reader_(bytes) {}
   [[nodiscard]] bool empty() const { return reader_.remaining() == 0; }
-  Result<Message> next() {
+  Result<Bytes> next() {
     const auto length = reader_.varint();
     const auto bytes = reader_.take(static_cast<std::size_t>(std::min<std::uint64_t>(length, max_chunk_bytes + 1U)));
     if (reader_.failed()) return Error{ErrorCode::truncated, "", "the chunk ends within a message"};
-    return decoder_.decode(bytes);
+    if (bytes.empty()) return malformed("a message of a chunk is empty");
+    return bytes;
   }
 
  private:
   byte_io::Reader reader_;
-  FrameDecoder decoder_;
+};
+
+/// Reads the messages of one chunk of frames.
+class FramesDecoder {
+ public:
+  Result<Keyframe> keyframe(Bytes message) {
+    is_version_1_ = Version1Decoder::reads(message[0]);
+    if (is_version_1_) return version_1_.keyframe(message);
+    if (!is_keyframe(message[0])) return malformed("a chunk must begin with a keyframe");
+    return read_packed_keyframe(message, state_);
+  }
+  Status frames(Bytes message, Frames& to) {
+    if (is_version_1_) return version_1_.frames(message, to);
+    if (!is_frames(message[0])) return malformed("after the keyframe of a chunk there must be frames");
+    return read_packed_frames(message, state_, to);
+  }
+
+ private:
+  bool is_version_1_ = false;
+  Version1Decoder version_1_;
+  PackedState state_;
 };
 
 }  // namespace
 
 std::vector<std::uint8_t> encode_beginning(const Header& header) {
   std::vector<std::uint8_t> chunk(chunk_head_bytes);
-  FrameEncoder encoder;
-  append_message(chunk, encoder, Message(header));
+  std::vector<std::uint8_t> message;
+  encode_message(header, message);
+  append_message(chunk, message);
   finish(chunk, {.kind = ChunkKind::header,
                  .frames = 0,
                  .sequence = header.sequence,
@@ -100,8 +123,8 @@ std::vector<std::uint8_t> encode_chunk(std::span<const RecordingFrame> frames, s
   assert(!frames.empty() && frames.size() <= max_chunk_frames);
   const auto& first = frames.front();
   std::vector<std::uint8_t> chunk(chunk_head_bytes);
-  FrameEncoder encoder;
-  append_message(chunk, encoder, Message(Keyframe{first.sequence, first.media_time, first.state}));
+  PackedEncoder encoder(Keyframe{first.sequence, first.media_time, first.state});
+  append_message(chunk, encoder.keyframe());
   if (frames.size() > 1) {
     Frames rest;
     rest.sequence = first.sequence + 1;
@@ -110,7 +133,7 @@ std::vector<std::uint8_t> encode_chunk(std::span<const RecordingFrame> frames, s
       assert(frame.sequence == first.sequence + rest.frames.size() + 1 && "no gap within a chunk");
       rest.frames.push_back({static_cast<std::uint32_t>(frame.media_time - first.media_time), frame.state});
     }
-    append_message(chunk, encoder, Message(std::move(rest)));
+    append_message(chunk, encoder.encode(rest));
   }
   finish(chunk, {.frames = static_cast<std::uint32_t>(frames.size()),
                  .lost = lost,
@@ -149,7 +172,9 @@ Result<Header> read_header_chunk(Bytes bytes) {
   const auto head = checked_head(bytes, ChunkKind::header);
   if (!head) return head.error();
   Messages messages(bytes.subspan(chunk_head_bytes, head->bytes));
-  auto message = messages.next();
+  const auto only = messages.next();
+  if (!only) return only.error();
+  auto message = FrameDecoder().decode(*only);
   if (!message) return message.error();
   if (auto* header = std::get_if<Header>(&*message)) return std::move(*header);
   return malformed("the first chunk has no header");
@@ -159,18 +184,19 @@ Result<std::vector<RecordingFrame>> read_frames_chunk(Bytes bytes) {
   const auto head = checked_head(bytes, ChunkKind::frames);
   if (!head) return head.error();
   Messages messages(bytes.subspan(chunk_head_bytes, head->bytes));
-  auto first = messages.next();
+  const auto first = messages.next();
   if (!first) return first.error();
-  const auto* key = std::get_if<Keyframe>(&*first);
-  if (key == nullptr) return malformed("a chunk must begin with a keyframe");
+  FramesDecoder decoder;
+  const auto key = decoder.keyframe(*first);
+  if (!key) return key.error();
   std::vector<RecordingFrame> frames = {{key->sequence, key->media_time, key->state}};
+  Frames batch;
   while (!messages.empty() && frames.size() < head->frames) {
-    auto message = messages.next();
+    const auto message = messages.next();
     if (!message) return message.error();
-    const auto* batch = std::get_if<Frames>(&*message);
-    if (batch == nullptr) return malformed("after the keyframe of a chunk there must be frames");
-    std::uint64_t sequence = batch->sequence;
-    for (const auto& frame : batch->frames) frames.push_back({sequence++, batch->media_time + frame.time, frame.state});
+    if (const auto status = decoder.frames(*message, batch); !status) return status.error();
+    for (const auto& frame : batch.frames)
+      frames.push_back({batch.sequence++, batch.media_time + frame.time, frame.state});
   }
   const bool as_said = frames.size() == head->frames && frames.front().sequence == head->sequence &&
                        frames.front().media_time == head->begin && frames.back().media_time == head->end;

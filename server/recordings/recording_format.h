@@ -12,8 +12,8 @@
 /// The byte format of a recording file; described in README.md.
 namespace semblante::recordings {
 
-/// "SEMBREC" and the version.
-inline constexpr std::array<std::uint8_t, 8> file_magic = {'S', 'E', 'M', 'B', 'R', 'E', 'C', 1};
+/// "SEMBREC" and the version that is written; those from 1 on are read.
+inline constexpr std::array<std::uint8_t, 8> file_magic = {'S', 'E', 'M', 'B', 'R', 'E', 'C', 2};
 inline constexpr std::array<std::uint8_t, 4> chunk_magic = {'C', 'H', 'N', 'K'};
 inline constexpr std::size_t chunk_head_bytes = 48;
 /// Limit of the messages in a chunk: enough for a keyframe and the most frames of a message, with every FAP changed in

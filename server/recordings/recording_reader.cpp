@@ -36,7 +36,7 @@ Result<RecordingReader> RecordingReader::open(std::shared_ptr<const ByteSource> 
   if (!reader.bytes_->read(0, magic)) return Error{ErrorCode::truncated, "byte 0", "too short for a recording"};
   if (!std::equal(magic.begin(), magic.end() - 1, file_magic.begin()))
     return Error{ErrorCode::malformed, "byte 0", "not a recording of Semblante"};
-  if (magic.back() != file_magic.back())
+  if (magic.back() < 1 || magic.back() > file_magic.back())
     return Error{ErrorCode::unsupported, "byte 7", "a recording of version " + std::to_string(magic.back())};
   const auto first = reader.chunk_at(file_magic.size());
   if (!first) return Error{ErrorCode::truncated, "byte 8", "the chunk with the stream's header is not whole"};

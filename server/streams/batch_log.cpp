@@ -4,8 +4,6 @@
 #include <cassert>
 #include <utility>
 
-#include "protocol/cpp/frame_codec.h"
-
 namespace semblante::streams {
 namespace {
 
@@ -79,16 +77,8 @@ http::SharedWire BatchLog::encode(Clock::time_point due, const std::shared_ptr<m
 const http::SharedWire& BatchLog::wire(Batch& batch, Coding coding) {
   auto& wire = batch.wires[static_cast<std::size_t>(coding)];
   if (wire) return wire;
-  return wire = encode(batch.due, options_.lateness, [&](std::string& bytes) {
-           if (coding == Coding::json) {
-             append_encoded(bytes, batch.message, false, options_.steps);
-             return;
-           }
-           // The plain form has differences, so its encoder needs the face before the batch.
-           FrameEncoder encoder;
-           encoder.encode(Keyframe{batch.before.sequence(), batch.before.media_time(), batch.before.state()});
-           append_payload(bytes, encoder.encode(batch.message));
-         });
+  return wire = encode(batch.due, options_.lateness,
+                       [&](std::string& bytes) { append_encoded(bytes, batch.message, false, options_.steps); });
 }
 
 const http::SharedWire& BatchLog::join_point(Coding coding) {

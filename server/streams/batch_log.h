@@ -25,7 +25,7 @@ struct Batch {
   std::uint64_t number = 0;  ///< 1 for a stream's first batch
   Frames message;
   PackedEncoder before;                              ///< the encoder, and with it the face, before this batch
-  std::array<http::SharedWire, coding_count> wires;  ///< packed: encoded on closing; others: by BatchLog::wire
+  std::array<http::SharedWire, coding_count> wires;  ///< packed: encoded on closing; JSON: by BatchLog::wire
   Clock::time_point closed;
   Clock::time_point due;  ///< deadline for closing it; lateness is measured from it
 };

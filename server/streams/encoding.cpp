@@ -11,18 +11,17 @@ void append_payload(std::string& wire, const std::vector<std::uint8_t>& payload)
 }
 
 void append_encoded(std::string& wire, const Message& message, bool binary, const QuantizerSteps& steps) {
-  if (binary)
-    append_payload(wire, FrameEncoder().encode(message));
-  else
-    http::append_message(wire, encode_json(message, steps), false);
+  if (!binary) return http::append_message(wire, encode_json(message, steps), false);
+  std::vector<std::uint8_t> payload;
+  encode_message(message, payload);
+  append_payload(wire, payload);
 }
 
 void append_join_point(std::string& wire, const PackedEncoder& packed, Coding coding, const QuantizerSteps& steps) {
   if (coding == Coding::packed)
     append_payload(wire, packed.keyframe());
   else
-    append_encoded(wire, Keyframe{packed.sequence(), packed.media_time(), packed.state()}, coding == Coding::plain,
-                   steps);
+    append_encoded(wire, Keyframe{packed.sequence(), packed.media_time(), packed.state()}, false, steps);
 }
 
 }  // namespace semblante::streams

@@ -13,16 +13,16 @@
 
 namespace semblante::streams {
 
-/// The forms in which a stream's batches are sent. Each is encoded once, when the first subscriber needs it.
-enum class Coding : std::uint8_t { packed, plain, json };
-inline constexpr std::size_t coding_count = 3;
-inline constexpr std::array<std::string_view, coding_count> coding_names = {"packed", "plain", "json"};
+/// The forms in which a stream's batches are sent: of the binary subprotocol and of the JSON one.
+enum class Coding : std::uint8_t { packed, json };
+inline constexpr std::size_t coding_count = 2;
+inline constexpr std::array<std::string_view, coding_count> coding_names = {"packed", "json"};
 
 /// Appends a binary message with its WebSocket frame header.
 void append_payload(std::string& wire, const std::vector<std::uint8_t>& payload);
 
-/// Appends one message that can be decoded alone, so no `frames` in binary form: those are differences to the message
-/// before. `steps` are the stream's quantizer steps, used to convert levels to FAP units in JSON.
+/// Appends a message; in binary form none with a face, which a PackedEncoder makes. `steps` are the stream's quantizer
+/// steps, used to convert levels to FAP units in JSON.
 void append_encoded(std::string& wire, const Message& message, bool binary, const QuantizerSteps& steps);
 
 /// Appends the newest state of `packed`, from which a reader of that form can continue.

@@ -95,8 +95,8 @@ Header Stream::header() const {
   return stream_header(made_, log_.taken());
 }
 
-Header Stream::header_for(bool recovered, StreamCoding coding) const {
-  return connection_header(made_, log_.sequence(), media_time_now(), sources_.rate(), recovered, coding);
+Header Stream::header_for(bool recovered) const {
+  return connection_header(made_, log_.sequence(), media_time_now(), sources_.rate(), recovered);
 }
 
 void Stream::set_listener(std::shared_ptr<BatchListener> listener) {
@@ -183,7 +183,7 @@ Result<Header> Stream::begin_publishing(StreamPeer& client, bool take_over) {
     return std::move(ticket).error();
   }
   client.notes().ticket = *ticket;
-  return header_for(false, StreamCoding::plain);
+  return header_for(false);
 }
 
 void Stream::end_publishing(StreamPeer& client) {
@@ -251,13 +251,10 @@ void Stream::subscribe(StreamPeer& client, http::WebSocketSink& sink, const Hell
   const std::lock_guard lock(mutex_);
   client.notes().said_hello = true;
   if (ended_) return;
-  const bool packed = binary && hello.coding == StreamCoding::packed;
-  const auto coding = packed ? Coding::packed : binary ? Coding::plain : Coding::json;
+  const auto coding = binary ? Coding::packed : Coding::json;
   const auto begin = log_.begin(coding, hello.resume);
   http::WireMessage header;
-  append_encoded(header.bytes,
-                 Message(header_for(begin.recovered, packed ? StreamCoding::packed : StreamCoding::plain)), binary,
-                 steps_);
+  append_encoded(header.bytes, Message(header_for(begin.recovered)), binary, steps_);
   const auto told = sink.send(std::make_shared<const http::WireMessage>(std::move(header)), http::Purpose::answer);
   if (told == http::Sent::closed) return;
   if (told == http::Sent::refused) ++counts_.messages_dropped;

@@ -102,7 +102,7 @@ class Stream : public StreamAccess, public std::enable_shared_from_this<Stream> 
   Result<Ticket> claim(Source source, double rate, bool take_over, StreamPeer* publisher);
   void release(StreamPeer& publisher);
   [[nodiscard]] StreamCounts all_counts() const;
-  [[nodiscard]] Header header_for(bool recovered, StreamCoding coding) const;
+  [[nodiscard]] Header header_for(bool recovered) const;
   [[nodiscard]] Clock::time_point next_work(Clock::time_point now) const;
   void want(Clock::time_point when);
 

@@ -14,6 +14,6 @@ Header stream_header(const StreamInfo& stream, std::uint64_t sequence);
 /// The same for one connection, with the members that it needs to follow the stream. `media_time`: now. `rate`: frames
 /// per second of the current source, 0: unknown.
 Header connection_header(const StreamInfo& stream, std::uint64_t sequence, std::uint64_t media_time, double rate,
-                         bool recovered, StreamCoding coding);
+                         bool recovered);
 
 }  // namespace semblante::streams

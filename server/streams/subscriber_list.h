@@ -23,7 +23,7 @@ struct Subscriber {
   http::WebSocketSink* sink = nullptr;
   std::size_t* slot = nullptr;   ///< where its current index in the list is stored
   std::uint64_t next_batch = 0;  ///< number of the first batch it has not been sent
-  Coding coding = Coding::plain;
+  Coding coding = Coding::packed;
   bool behind = false;  ///< needs the newest state before the next batch
   bool waits = false;   ///< its outbox may have messages
 };

@@ -1,4 +1,4 @@
-"""Reads the messages of a Semblante stream: JSON, binary, packed.
+"""Reads the messages of a Semblante stream: JSON and binary.
 
 Written from protocol/SPEC.md and the JSON files it names, alone, to hold the document against the server: what is not said
 there is not to be taken from the C++ or TypeScript but to be said there. Slow and literal; Python 3, standard library.
@@ -60,7 +60,7 @@ def face(viseme, expression, levels, where):
     return Face(tuple(viseme), tuple(expression), tuple(levels))
 
 
-# ---- Section 5, plain
+# ---- Section 5; packed_reader.py has its packed form
 
 
 class Bytes:
@@ -87,10 +87,6 @@ class Bytes:
                 return held(value, 0, most, where, code)
             held(shift, 0, 63, where)
 
-    def signed(self, where):
-        value = self.varint(where)
-        return -(value + 1) // 2 if value & 1 else value // 2
-
     def f64(self, where, least=None, most=None):
         value = struct.unpack("<d", self.take(8, where))[0]
         if value != value or value in (float("inf"), float("-inf")):
@@ -106,23 +102,6 @@ class Bytes:
             return raw.decode("utf-8")  # Python's is strict: no surrogates, no overlong forms
         except UnicodeDecodeError:
             raise Refused("malformed", where) from None
-
-    def state(self, before, where):
-        viseme, expression, levels = before.viseme, before.expression, list(before.levels)
-        bits = self.varint(where)
-        if bits >> 11:
-            raise Refused("unsupported", where)
-        if bits & 1:
-            viseme = tuple(self.take(3, where))
-        if bits & 2:
-            expression = tuple(self.take(4, where))
-        for bit, faps in GROUPS.items():
-            if bits >> bit & 1:
-                mask = held(self.varint(where + "/faps"), 1, 2 ** len(faps) - 1, where + "/faps")
-                for i, fap in enumerate(faps):
-                    if mask >> i & 1:
-                        levels[fap] += self.signed(where)
-        return face(viseme, expression, levels, where)
 
 
 def read_field(source, field, where):
@@ -180,7 +159,6 @@ class Reader:
 
     def __init__(self):
         self.steps = STANDARD_STEPS
-        self.form = self.last = self.sequence = None  # of the newest keyframe: "plain" or "packed"; newest Face; its number
         self.packed = None
 
     def binary(self, data):
@@ -189,48 +167,26 @@ class Reader:
             raise Refused("too_large", "")
         source = Bytes(data)
         kind = source.u8("/type")
-        if kind == SCHEMA["packed"]["keyframe_type"] or kind >= SCHEMA["packed"]["frames_type"]:
+        if kind == NAMED["keyframe"]["type"] or kind >= NAMED["frames"]["type"]:
             return self._packed(kind, source)
         if kind not in MESSAGES:
             raise Refused("unsupported", "/type")
         message = {"type": MESSAGES[kind]["wire"]}
         for field in MESSAGES[kind]["fields"]:
-            where = "/" + field["name"]
-            if field["type"] == "state":
-                message["state"] = source.state(NEUTRAL, where)
-            elif field["type"] == "frames":
-                message["frames"] = self._plain_frames(source, message["sequence"])
-            elif not (appended(field) and source.at == len(data)):
-                put(message, field, read_field(source, field, where))
+            if not (appended(field) and source.at == len(data)):
+                put(message, field, read_field(source, field, "/" + field["name"]))
         if message["type"] == "header":
             self.steps = message["quantizers"] or STANDARD_STEPS
-        elif message["type"] == "keyframe":
-            self.form, self.last, self.sequence = "plain", message["state"], message["sequence"]
-        elif message["type"] == "frames":
-            self.last, self.sequence = message["frames"][-1][1], self.sequence + len(message["frames"])
         return message
-
-    def _plain_frames(self, source, sequence):
-        count = source.varint("/frames", LIMITS["max_frames_per_message"], "too_large")
-        held(count, 1, count, "/frames")
-        if self.form != "plain" or sequence not in (0, self.sequence + 1):
-            raise Refused("mismatch", "/sequence")
-        frames, time, last = [], 0, self.last
-        for i in range(count):
-            time = held(time + source.varint(f"/frames/{i}/time"), 0, LIMITS["max_frame_time"], f"/frames/{i}/time")
-            last = source.state(last, f"/frames/{i}")
-            frames.append((time, last))
-        return frames
 
     def _packed(self, kind, source):
         from packed_reader import PackedState
 
-        if kind == SCHEMA["packed"]["keyframe_type"]:
+        if kind == NAMED["keyframe"]["type"]:
             sequence, media_time = source.varint("/sequence"), source.varint("/media_time")
             self.packed = PackedState.of_keyframe(sequence, media_time, source.data[source.at :])
-            self.form = "packed"
             return {"type": "keyframe", "sequence": sequence, "media_time": media_time, "state": self.packed.past[0]}
-        if self.form != "packed" or (self.packed.sequence + 1) % 128 != kind - 128:
+        if self.packed is None or (self.packed.sequence + 1) % 128 != kind - 128:
             raise Refused("mismatch", "/sequence")
         after, media_time, frames = self.packed.after_batch(source.data[1:])
         message = {"type": "frames", "sequence": self.packed.sequence + 1, "media_time": media_time, "frames": frames}

@@ -55,10 +55,10 @@ for other in others:
 
 for case in vectors("refused.json")["refused"]:
     reader = Reader()
-    reader.binary(bytes.fromhex("03000000"))
+    reader.binary(bytes.fromhex("090000e3"))
     if "binary" in case:
         refuses(lambda: reader.binary(bytes.fromhex(case["binary"])), case)
-        following = reader.binary(bytes.fromhex("040128010000"))
+        following = reader.binary(bytes.fromhex("81a2"))
         check(following["sequence"] == 1, f"{case['name']}: changed the state")
     else:
         refuses(lambda: reader.text(case["json"]), case)

@@ -9,23 +9,17 @@
 #include "clients/native/client/stream_socket.h"
 #include "protocol/cpp/frame_codec.h"
 #include "protocol/cpp/messages.h"
+#include "tests/support/frame_encoder.h"
 
 namespace semblante::testing {
 
-inline Hello packed_hello(StreamRole role = StreamRole::subscribe) {
-  Hello hello;
-  hello.role = role;
-  hello.coding = StreamCoding::packed;
-  return hello;
-}
-
 /// One connection that says and hears single messages of the protocol, for tests that want to be the client
-/// themselves: no pings, no resume. Frames are sent in the plain form.
+/// themselves: no pings, no resume.
 class StreamSpeaker {
  public:
   /// Connects and says `hello`. Errors: those of StreamSocket.
   static Result<StreamSpeaker> connect(const client::ServerAddress& server, std::string_view stream,
-                                       const Hello& hello = packed_hello(),
+                                       const Hello& hello = {},
                                        std::chrono::milliseconds timeout = std::chrono::seconds(10)) {
     auto socket = client::StreamSocket::open(server, stream, {.timeout = timeout});
     if (!socket) return std::move(socket).error();

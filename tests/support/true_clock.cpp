@@ -31,7 +31,7 @@ std::optional<RoundTrip> ping(StreamSpeaker& stream, std::uint32_t id) {
 }  // namespace
 
 std::optional<TrueClock> measure_true_clock(const client::Url& server, const std::string& stream) {
-  auto direct = StreamSpeaker::connect(server, stream, packed_hello(), patience);
+  auto direct = StreamSpeaker::connect(server, stream, Hello(), patience);
   if (!direct) return std::nullopt;
   // The shortest of some round trips says most. A busy machine answers late: then more of them are waited for.
   constexpr std::uint32_t least = 20;

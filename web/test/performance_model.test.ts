@@ -21,7 +21,7 @@ const stream = (id: string, more: Partial<StreamInfo> = {}): StreamInfo => ({
   batch_interval: 100,
   quantizer_scale: 1,
   is_public: false,
-  subscribers_by_coding: { packed: 0, plain: 0, json: 0 },
+  subscribers_by_coding: { packed: 0, json: 0 },
   bytes_sent: 0,
   messages_coalesced: 0,
   lateness_p99: null,

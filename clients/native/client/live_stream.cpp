@@ -34,7 +34,6 @@ runtime::StreamOptions machine_options(const LiveStreamOptions& from) {
   options.role = from.role;
   options.take_over = from.take_over;
   options.resume = from.resume;
-  options.coding = from.socket.json ? StreamCoding::plain : from.coding;
   options.retry_first = to_ms(from.first_pause);
   options.retry_longest = to_ms(from.longest_pause);
   options.seed = from.seed;

@@ -17,9 +17,8 @@ namespace semblante::client {
 struct LiveStreamOptions {
   SocketOptions socket;
   StreamRole role = StreamRole::subscribe;
-  StreamCoding coding = StreamCoding::packed;  ///< requested; JSON is always plain
-  std::optional<ResumePoint> resume;           ///< of the first connection
-  bool take_over = false;                      ///< of a publisher: replaces the current source
+  std::optional<ResumePoint> resume;  ///< of the first connection
+  bool take_over = false;             ///< of a publisher: replaces the current source
   /// First and longest pause before reconnecting. Each attempt doubles the pause; half of it is random.
   std::chrono::milliseconds first_pause{250}, longest_pause{10'000};
   std::uint64_t seed = std::random_device{}();

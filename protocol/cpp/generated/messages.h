@@ -34,10 +34,6 @@ inline constexpr std::uint32_t protocol_version = 1;
 inline constexpr std::string_view binary_subprotocol = "semblante.v1";
 inline constexpr std::string_view json_subprotocol = "semblante.v1.json";
 
-/// First bytes of the packed form; that of frames has the low seven bits of `sequence` added.
-inline constexpr std::uint8_t packed_keyframe_type = 9;
-inline constexpr std::uint8_t packed_frames_type = 128;
-
 inline constexpr std::size_t max_binary_message_bytes = 262144;
 inline constexpr std::size_t max_json_message_bytes = 1048576;
 inline constexpr std::size_t max_frames_per_message = 1024;
@@ -51,14 +47,6 @@ enum class StreamRole : std::uint8_t {
 };
 inline constexpr std::array<std::string_view, 2> stream_role_value_names = {"subscribe", "publish"};
 inline constexpr EnumNames stream_role_names{stream_role_value_names, false};
-
-/// The form of keyframes and frames on a binary connection.
-enum class StreamCoding : std::uint8_t {
-  plain,  ///< differences as varints: `keyframe` and `frames`
-  packed,  ///< predicted and entropy coded: see "Packed form"
-};
-inline constexpr std::array<std::string_view, 2> stream_coding_value_names = {"plain", "packed"};
-inline constexpr EnumNames stream_coding_names{stream_coding_value_names, true};
 
 /// Why a stream or a connection ends.
 enum class EndReason : std::uint8_t {
@@ -105,7 +93,6 @@ struct Hello {
   std::uint32_t version = 1;  ///< highest protocol version the client knows
   StreamRole role{};
   std::optional<ResumePoint> resume;  ///< present after a lost connection
-  StreamCoding coding{};  ///< the preferred form that the client can read; ignored on a JSON connection
   bool take_over = false;  ///< for a publisher: replace the current source
   friend bool operator==(const Hello&, const Hello&) = default;
 };
@@ -125,7 +112,6 @@ struct Header {
   std::vector<double> quantizers;  ///< FAP units; steps of FAPs 3 to 68; empty: the standard steps
   bool recovered = false;  ///< all frames after the resume point follow: none was lost
   std::optional<double> viseme_share;  ///< viseme share of Eq. 5, in place of rig.json's; absent: rig.json's
-  StreamCoding coding{};  ///< the form in which the server sends on this connection
   friend bool operator==(const Header&, const Header&) = default;
 };
 
@@ -133,7 +119,7 @@ struct Header {
 struct Keyframe {
   std::uint64_t sequence = 0;  ///< number of this frame; 0: before the first
   std::uint64_t media_time = 0;  ///< ms
-  FaceFrame state;  ///< as differences to the neutral face
+  FaceFrame state;
   friend bool operator==(const Keyframe&, const Keyframe&) = default;
 };
 
@@ -141,7 +127,7 @@ struct Keyframe {
 struct Frames {
   std::uint64_t sequence = 0;  ///< number of the first frame; 0 (from a publisher): the next number
   std::uint64_t media_time = 0;  ///< ms; 0 (from a publisher): now
-  std::vector<TimedFrame> frames;  ///< 1 to 1024 frames, each as differences to the one before
+  std::vector<TimedFrame> frames;  ///< 1 to 1024 frames
   friend bool operator==(const Frames&, const Frames&) = default;
 };
 
@@ -192,12 +178,12 @@ struct MessageTraits<Header> {
 };
 template <>
 struct MessageTraits<Keyframe> {
-  static constexpr std::uint8_t type = 3;
+  static constexpr std::uint8_t type = 9;
   static constexpr std::string_view name = "keyframe";
 };
 template <>
 struct MessageTraits<Frames> {
-  static constexpr std::uint8_t type = 4;
+  static constexpr std::uint8_t type = 128;
   static constexpr std::string_view name = "frames";
 };
 template <>
@@ -236,7 +222,6 @@ void visit_fields(M& m, V& v) {
   v.uint("version", m.version, 65535U, Presence::required);
   v.enumeration("role", m.role, stream_role_names, Presence::defaulted);
   v.optional("resume", m.resume);
-  v.enumeration("coding", m.coding, stream_coding_names, Presence::appended);
   v.boolean("take_over", m.take_over, Presence::appended);
 }
 
@@ -256,7 +241,6 @@ void visit_fields(M& m, V& v) {
   v.reals("quantizers", m.quantizers, 66, 1e-06, 1000000.0, Presence::defaulted);
   v.boolean("recovered", m.recovered, Presence::defaulted);
   v.optional_real("viseme_share", m.viseme_share, 0, 1);
-  v.enumeration("coding", m.coding, stream_coding_names, Presence::appended);
 }
 
 template <class M, class V>

@@ -6,9 +6,6 @@ export const protocolVersion = 1;
 export const binarySubprotocol = 'semblante.v1';
 export const jsonSubprotocol = 'semblante.v1.json';
 
-export const packedKeyframeType = 9;
-export const packedFramesType = 128;
-
 export const limits = {
   max_binary_message_bytes: 262144,
   max_json_message_bytes: 1048576,
@@ -19,9 +16,6 @@ export const limits = {
 
 /** The role of a client in the stream. */
 export type StreamRole = 'subscribe' | 'publish';
-
-/** The form of keyframes and frames on a binary connection. */
-export type StreamCoding = 'plain' | 'packed';
 
 /** Why a stream or a connection ends. */
 export type EndReason = 'other' | 'finished' | 'deleted' | 'shutdown' | 'replaced' | 'slow';
@@ -45,8 +39,6 @@ export interface Hello {
   role: StreamRole;
   /** present after a lost connection */
   resume: ResumePoint | null;
-  /** the preferred form that the client can read; ignored on a JSON connection */
-  coding: StreamCoding;
   /** for a publisher: replace the current source */
   take_over: boolean;
 }
@@ -80,8 +72,6 @@ export interface Header {
   recovered: boolean;
   /** viseme share of Eq. 5, in place of rig.json's; absent: rig.json's */
   viseme_share: number | null;
-  /** the form in which the server sends on this connection */
-  coding: StreamCoding;
 }
 
 /** The complete state at one moment, from which a reader can start. */
@@ -91,7 +81,6 @@ export interface Keyframe {
   sequence: number;
   /** ms */
   media_time: number;
-  /** as differences to the neutral face */
   state: FaceFrame;
 }
 
@@ -102,7 +91,7 @@ export interface Frames {
   sequence: number;
   /** ms; 0 (from a publisher): now */
   media_time: number;
-  /** 1 to 1024 frames, each as differences to the one before */
+  /** 1 to 1024 frames */
   frames: TimedFrame[];
 }
 
@@ -178,7 +167,6 @@ export interface MessageDescription {
 }
 
 const stream_role_values: EnumValues = { names: ['subscribe', 'publish'], open: false };
-const stream_coding_values: EnumValues = { names: ['plain', 'packed'], open: true };
 const end_reason_values: EnumValues = { names: ['other', 'finished', 'deleted', 'shutdown', 'replaced', 'slow'], open: true };
 const stream_error_code_values: EnumValues = { names: ['other', 'malformed', 'truncated', 'out_of_range', 'not_finite', 'too_large', 'unsupported', 'mismatch', 'missing', 'invalid_argument', 'not_found', 'conflict', 'throttled', 'unauthorized', 'internal'], open: true };
 
@@ -195,7 +183,6 @@ export const messages: readonly MessageDescription[] = [
       { name: 'version', type: 'uint', max: 65535, required: true, fallback: 1 },
       { name: 'role', type: 'enum', values: stream_role_values, required: false, fallback: 'subscribe' },
       { name: 'resume', type: 'optional', fields: resume_point_fields, required: false, fallback: null },
-      { name: 'coding', type: 'enum', values: stream_coding_values, appended: true, required: false, fallback: 'plain' },
       { name: 'take_over', type: 'bool', appended: true, required: false, fallback: false },
     ],
   },
@@ -216,11 +203,10 @@ export const messages: readonly MessageDescription[] = [
       { name: 'quantizers', type: 'reals', min: 1e-06, max: 1000000.0, length: 66, required: false, fallback: [] },
       { name: 'recovered', type: 'bool', required: false, fallback: false },
       { name: 'viseme_share', type: 'optional_real', min: 0, max: 1, appended: true, required: false, fallback: null },
-      { name: 'coding', type: 'enum', values: stream_coding_values, appended: true, required: false, fallback: 'plain' },
     ],
   },
   {
-    type: 3,
+    type: 9,
     name: 'keyframe',
     fields: [
       { name: 'sequence', type: 'uint', max: 9007199254740991, required: false, fallback: 0 },
@@ -229,7 +215,7 @@ export const messages: readonly MessageDescription[] = [
     ],
   },
   {
-    type: 4,
+    type: 128,
     name: 'frames',
     fields: [
       { name: 'sequence', type: 'uint', max: 9007199254740991, required: false, fallback: 0 },

@@ -8,7 +8,9 @@
 #include <stdexcept>
 
 #include "protocol/cpp/frame_codec.h"
+#include "server/recordings/recording_version_1.h"
 #include "tests/bench/coding/training.h"
+#include "tests/support/varint_frames.h"
 
 namespace semblante::bench {
 namespace {
@@ -29,11 +31,21 @@ struct Coded {
 /// What one TCP segment and one unmasked WebSocket frame add to each message: IPv4, TCP with timestamps, two bytes.
 constexpr std::size_t socket_bytes = 20 + 20 + 12 + 2;
 
-Coded plain(const Trace& trace, std::size_t per_message) {
-  FrameEncoder encoder;
-  Coded coded{encoder.encode(first_frame(trace)).size(), 1};
-  for (const Frames& batch : batches(trace, per_message)) {
-    coded.payload += encoder.encode(batch).size();
+/// The baseline: differences as varints, one message after the other.
+std::vector<Bytes> varint_messages(const Keyframe& first, std::span<const Frames> messages) {
+  std::vector<Bytes> all = {testing::varint_keyframe(first)};
+  const FaceFrame* before = &first.state;
+  for (const Frames& batch : messages) {
+    all.push_back(testing::varint_frames(batch, *before));
+    before = &batch.frames.back().state;
+  }
+  return all;
+}
+
+Coded varint(const Trace& trace, std::size_t per_message) {
+  Coded coded;
+  for (const Bytes& message : varint_messages(first_frame(trace), batches(trace, per_message))) {
+    coded.payload += message.size();
     ++coded.messages;
   }
   return coded;
@@ -89,7 +101,7 @@ void print_payload(const std::vector<Trace>& measured, const std::vector<Trace>&
         joins += encoder.keyframe().size();
       }
       std::printf("| %s | %zu | %.1f | %.2f | %.3f | %.3f | %.3f |\n", trace.name.c_str(), per_message,
-                  kbits(raw, trace), kbits(static_cast<double>(plain(trace, per_message).payload), trace),
+                  kbits(raw, trace), kbits(static_cast<double>(varint(trace, per_message).payload), trace),
                   kbits(static_cast<double>(packed(trace, per_message, unseen).payload), trace),
                   kbits(static_cast<double>(own.payload), trace),
                   kbits(static_cast<double>(own.payload + joins), trace));
@@ -108,7 +120,7 @@ void print_socket(const std::vector<Trace>& measured, const std::vector<Trace>& 
       std::printf("| %s | %s | %.2f | %.2f | %.2f |\n", trace.name.c_str(), name, on_socket(code(1U), trace),
                   on_socket(code(2U), trace), on_socket(code(5U), trace));
     };
-    row("varint", [&](std::size_t n) { return plain(trace, n); });
+    row("varint", [&](std::size_t n) { return varint(trace, n); });
     row("packed, trace unseen", [&](std::size_t n) { return packed(trace, n, unseen); });
     row("packed as shipped", [&](std::size_t n) { return packed(trace, n, packed_tables::values); });
   }
@@ -128,7 +140,7 @@ void print_joins(const std::vector<Trace>& measured) {
       encoder.encode(batch);
       sizes.push_back(encoder.keyframe().size());
       varints.push_back(
-          FrameEncoder().encode(Keyframe{encoder.sequence(), encoder.media_time(), encoder.state()}).size());
+          testing::varint_keyframe(Keyframe{encoder.sequence(), encoder.media_time(), encoder.state()}).size());
     }
     std::sort(sizes.begin(), sizes.end());
     std::sort(varints.begin(), varints.end());
@@ -160,37 +172,34 @@ void print_times(const std::vector<Trace>& measured) {
   std::puts("|---|---|---|---|---|---|---|");
   for (const Trace& trace : measured) {
     const auto messages = batches(trace, 5);
-    std::vector<Bytes> plain_bytes;
+    const Keyframe first = first_frame(trace);
+    const std::vector<Bytes> varint_bytes = varint_messages(first, messages);
     std::vector<Bytes> packed_bytes;
-    FrameEncoder plain_encoder;
-    PackedEncoder packed_encoder(first_frame(trace));
-    plain_bytes.push_back(plain_encoder.encode(first_frame(trace)));
+    PackedEncoder packed_encoder(first);
     packed_bytes.push_back(packed_encoder.keyframe());
-    for (const Frames& batch : messages) {
-      plain_bytes.push_back(plain_encoder.encode(batch));
-      packed_bytes.push_back(packed_encoder.encode(batch));
-    }
-    const double plain_encode = microseconds(trace, [&] {
-      FrameEncoder encoder;
-      encoder.encode(first_frame(trace));
-      for (const Frames& batch : messages) encoder.encode(batch);
-    });
+    for (const Frames& batch : messages) packed_bytes.push_back(packed_encoder.encode(batch));
+    const double varint_encode = microseconds(trace, [&] { varint_messages(first, messages); });
     const double packed_encode = microseconds(trace, [&] {
-      PackedEncoder encoder(first_frame(trace));
+      PackedEncoder encoder(first);
       for (const Frames& batch : messages) encoder.encode(batch);
     });
-    const auto decode = [&](const std::vector<Bytes>& all) {
-      return microseconds(trace, [&] {
-        FrameDecoder decoder;
-        for (const Bytes& bytes : all) {
-          if (!decoder.decode(bytes)) throw std::runtime_error("refused");
-        }
-      });
-    };
-    const double plain_decode = decode(plain_bytes);
-    const double packed_decode = decode(packed_bytes);
-    std::printf("| %s | %.2f | %.2f | %.1f | %.2f | %.2f | %.1f |\n", trace.name.c_str(), plain_encode, packed_encode,
-                packed_encode / plain_encode, plain_decode, packed_decode, packed_decode / plain_decode);
+    Frames read;
+    const double varint_decode = microseconds(trace, [&] {
+      recordings::Version1Decoder decoder;
+      if (!decoder.keyframe(varint_bytes[0])) throw std::runtime_error("refused");
+      for (std::size_t i = 1; i < varint_bytes.size(); ++i) {
+        if (!decoder.frames(varint_bytes[i], read)) throw std::runtime_error("refused");
+      }
+    });
+    const double packed_decode = microseconds(trace, [&] {
+      FrameDecoder decoder;
+      if (!decoder.decode(packed_bytes[0])) throw std::runtime_error("refused");
+      for (std::size_t i = 1; i < packed_bytes.size(); ++i) {
+        if (!decoder.decode_frames(packed_bytes[i], read)) throw std::runtime_error("refused");
+      }
+    });
+    std::printf("| %s | %.2f | %.2f | %.1f | %.2f | %.2f | %.1f |\n", trace.name.c_str(), varint_encode, packed_encode,
+                packed_encode / varint_encode, varint_decode, packed_decode, packed_decode / varint_decode);
   }
 }
 

@@ -130,7 +130,7 @@ Outcome garbage(const Endpoint& endpoint, const std::string& path, std::size_t n
   // Frames, a keyframe, and what no version knows.
   constexpr std::uint8_t kinds[] = {MessageTraits<Frames>::type, MessageTraits<Keyframe>::type, 0xfe};
   Wrongdoers polite, rude;
-  const auto hello = hello_frame(Coding::plain);
+  const auto hello = hello_frame(Coding::packed);
   for (std::size_t i = 0; i < number; ++i) {
     polite.emplace_back(open_websocket(endpoint, path, binary_subprotocol));
     polite.back().say(hello);
@@ -168,7 +168,7 @@ Outcome oversized(const Endpoint& endpoint, const std::string& path, std::size_t
   Wrongdoers all;
   for (std::size_t i = 0; i < number; ++i) {
     all.emplace_back(open_websocket(endpoint, path, binary_subprotocol));
-    all.back().say(hello_frame(Coding::plain));
+    all.back().say(hello_frame(Coding::packed));
     all.back().say(message);
   }
   until_sent_away(all, milliseconds(20), [](Wrongdoer&) {});

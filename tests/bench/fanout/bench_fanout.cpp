@@ -53,9 +53,8 @@ int main(int count, char** words) {
   app.add_flag("--heavy", options.feed.heavy, "Every FAP changes in every frame: messages of many bytes");
   app.add_option("--batch", options.batch_ms, "The stream's batch interval, ms; 0: at once")
       ->check(CLI::Range(0, 1000));
-  const std::map<std::string, Coding> codings = {
-      {"plain", Coding::plain}, {"packed", Coding::packed}, {"json", Coding::json}};
-  app.add_option("--coding", options.coding, "How subscribers have the stream: plain, packed or json")
+  const std::map<std::string, Coding> codings = {{"packed", Coding::packed}, {"json", Coding::json}};
+  app.add_option("--coding", options.coding, "How subscribers have the stream: packed or json")
       ->transform(CLI::CheckedTransformer(codings));
   app.add_option("--seconds", options.seconds, "Of each measurement")->check(CLI::Range(0.1, 86'400.0));
   app.add_option("--minutes", minutes, "The same in minutes")->check(CLI::Range(0.01, 1'440.0));

@@ -1,8 +1,8 @@
 #include "tests/bench/fanout/coding.h"
 
-#include "protocol/cpp/frame_codec.h"
 #include "protocol/cpp/json_codec.h"
 #include "tests/bench/fanout/websocket_wire.h"
+#include "tests/support/frame_encoder.h"
 
 namespace semblante::bench {
 
@@ -11,8 +11,7 @@ std::string_view subprotocol_of(Coding coding) {
 }
 
 std::string hello_frame(Coding coding) {
-  Hello hello;
-  if (coding == Coding::packed) hello.coding = StreamCoding::packed;
+  const Hello hello;
   if (coding == Coding::json) return client_frame(Opcode::text, encode_json(hello));
   const auto bytes = FrameEncoder().encode(hello);
   return client_frame(Opcode::binary, std::string(bytes.begin(), bytes.end()));

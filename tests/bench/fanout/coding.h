@@ -7,7 +7,7 @@
 namespace semblante::bench {
 
 /// How a subscriber wants a stream.
-enum class Coding : std::uint8_t { plain, packed, json };
+enum class Coding : std::uint8_t { packed, json };
 
 std::string_view subprotocol_of(Coding coding);
 /// A subscriber's hello, as a masked WebSocket message.

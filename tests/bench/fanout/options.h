@@ -12,7 +12,7 @@ struct Options {
   std::size_t subscribers = 0;  ///< 0: as the mode has it
   Feed feed;
   int batch_ms = 0;
-  Coding coding = Coding::plain;
+  Coding coding = Coding::packed;
   double seconds = 0.0;  ///< of each measurement; 0: as the mode has it
   int repetitions = 0;   ///< 0: as the mode has it
   double stalled = 0.01;

@@ -6,6 +6,7 @@
 #include "protocol/cpp/frame_codec.h"
 #include "tests/bench/fanout/trace.h"
 #include "tests/bench/fanout/websocket_wire.h"
+#include "tests/support/frame_encoder.h"
 
 namespace semblante::bench {
 namespace {

@@ -16,9 +16,9 @@
 #include <vector>
 
 #include "clients/runtime/semblante.h"
-#include "protocol/cpp/frame_codec.h"
 #include "protocol/cpp/packed_codec.h"
 #include "tests/bench/coding/training.h"
+#include "tests/support/frame_encoder.h"
 
 namespace semblante::bench {
 namespace {
@@ -94,7 +94,6 @@ struct Speech {
     header.epoch = 7;
     header.fps_hint = 30;
     header.batch_interval = static_cast<std::uint64_t>(batch);
-    header.coding = StreamCoding::packed;
     messages.push_back(FrameEncoder().encode(header));
     PackedEncoder encoder(first_frame(trace));
     messages.push_back(encoder.keyframe());

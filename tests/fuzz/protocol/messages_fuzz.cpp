@@ -1,23 +1,48 @@
-// A connection of binary messages: each input is a run of (length byte, message).
+// A connection of binary messages: each input is a run of (length byte, message). What is accepted is said again, and
+// must mean the same; who joins at any frame reads on.
 #include <algorithm>
 #include <cstdlib>
 
 #include "protocol/cpp/frame_codec.h"
+#include "protocol/cpp/packed_codec.h"
 
 using namespace semblante;
+
+namespace {
+
+void require(bool condition) {
+  if (!condition) std::abort();
+}
+
+std::vector<std::uint8_t> said_again(const Message& message, PackedEncoder& encoder) {
+  if (const auto* keyframe = std::get_if<Keyframe>(&message)) {
+    encoder = PackedEncoder(*keyframe);
+    return encoder.keyframe();
+  }
+  if (const auto* frames = std::get_if<Frames>(&message)) {
+    for (const TimedFrame& frame : frames->frames) require(is_valid(frame.state));
+    return encoder.encode(*frames);
+  }
+  std::vector<std::uint8_t> bytes;
+  encode_message(message, bytes);
+  return bytes;
+}
+
+}  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   FrameDecoder decoder;
   FrameDecoder again;
-  FrameEncoder encoder;
+  PackedEncoder encoder;
   for (std::size_t at = 0; at < size;) {
     const std::size_t length = std::min<std::size_t>(data[at], size - at - 1);
     const auto message = decoder.decode({data + at + 1, length});
     at += 1 + length;
     if (!message) continue;
-    // What was accepted can be said again, and means the same.
-    const auto echo = again.decode(encoder.encode(*message));
-    if (!echo || !(*echo == *message)) std::abort();
+    const auto echo = again.decode(said_again(*message, encoder));
+    require(echo && *echo == *message);
+    FrameDecoder late;
+    require(late.decode(encoder.keyframe()).ok());
   }
   return 0;
 }

@@ -11,6 +11,7 @@
 #include "protocol/cpp/frame_codec.h"
 #include "protocol/cpp/quantizers.h"
 #include "tests/integration/server/model_flow.h"
+#include "tests/support/frame_encoder.h"
 
 namespace semblante::test {
 namespace {
@@ -132,8 +133,7 @@ TEST_F(Streams, FinerSteps_KeepWhatStandardOnesRound) {
     EXPECT_EQ(next(text)["type"], "keyframe");
     WebSocket binary(port(), stream, "semblante.v1");
     FrameDecoder decoder;
-    const auto bytes =
-        FrameEncoder().encode(Hello{1, StreamRole::subscribe, std::nullopt, StreamCoding::packed, false});
+    const auto bytes = FrameEncoder().encode(Hello());
     binary.send({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, true);
     const auto read = [&]() -> Message {
       const auto message = binary.receive();

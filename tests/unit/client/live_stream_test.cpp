@@ -14,8 +14,8 @@
 #include <gtest/gtest.h>
 
 #include "clients/native/client/frame_player.h"
-#include "protocol/cpp/frame_codec.h"
 #include "protocol/cpp/json_codec.h"
+#include "tests/support/frame_encoder.h"
 #include "tests/support/wait.h"
 #include "tests/unit/client/canned_server.h"
 
@@ -182,7 +182,7 @@ TEST(LiveStream, MessageThatIsNone_IsAFault) {
   const ScriptedServer server("semblante.v1", [](Socket& socket) {
     beast::error_code problem;
     socket.binary(true);
-    socket.write(asio::buffer("\x03\xFF\xFF\xFF", 4), problem);
+    socket.write(asio::buffer("\x09\xFF\xFF\xFF", 4), problem);
   });
   LiveStream stream(server.url(), "s");
   const runtime::Event fault = event_of(stream, SEMBLANTE_EVENT_FAULT);

@@ -168,7 +168,7 @@ TEST(ProtocolGrowth, Weights) {
       [](const std::vector<std::uint8_t>& bytes) { EXPECT_TRUE(decode_weights(bytes)); });
 }
 
-/// Bytes of messages, plain and packed; each is bounded, a connection is not.
+/// Bytes of messages; each is bounded, a connection is not.
 TEST(ProtocolGrowth, BinaryMessages) {
   const auto some_frames = [](std::size_t n) {
     Frames frames;
@@ -184,20 +184,7 @@ TEST(ProtocolGrowth, BinaryMessages) {
   };
   const test::Growth one_message = {.from = 16, .most = max_frames_per_message};
   expect_linear(
-      "plain frames", one_message,
-      [&](std::size_t n) {
-        FrameEncoder encoder;
-        std::vector<std::vector<std::uint8_t>> messages;
-        messages.push_back(encoder.encode(Keyframe{}));
-        messages.push_back(encoder.encode(some_frames(n)));
-        return messages;
-      },
-      [](const std::vector<std::vector<std::uint8_t>>& messages) {
-        FrameDecoder decoder;
-        for (const auto& message : messages) EXPECT_TRUE(decoder.decode(message));
-      });
-  expect_linear(
-      "packed frames", one_message,
+      "frames", one_message,
       [&](std::size_t n) {
         PackedEncoder encoder((Keyframe()));
         std::vector<std::vector<std::uint8_t>> messages;

@@ -4,6 +4,7 @@
 
 #include "protocol/cpp/fap_ranges.h"
 #include "protocol/cpp/frame_codec.h"
+#include "tests/support/frame_encoder.h"
 
 namespace semblante {
 namespace {

@@ -7,6 +7,7 @@
 #include "protocol/cpp/byte_io.h"
 #include "server/recordings/recording_reader.h"
 #include "server/recordings/recording_writer.h"
+#include "tests/support/varint_frames.h"
 #include "tests/unit/recordings/recorded_frames.h"
 
 namespace semblante::recordings {
@@ -27,6 +28,13 @@ std::string hex(std::span<const std::uint8_t> bytes) {
   std::string text;
   for (const auto byte : bytes) text.append({digits[byte >> 4U], digits[byte & 15U]});
   return text;
+}
+
+std::vector<std::uint8_t> bytes_of_hex(std::string_view text) {
+  std::vector<std::uint8_t> bytes;
+  for (std::size_t i = 0; i + 1 < text.size(); i += 2)
+    bytes.push_back(static_cast<std::uint8_t>(std::stoul(std::string(text.substr(i, 2)), nullptr, 16)));
+  return bytes;
 }
 
 Result<RecordingReader> open_memory(std::vector<std::uint8_t> bytes, Check check = Check::everything) {
@@ -260,7 +268,9 @@ TEST(RecordingFile, DamageInTheMiddle_IsNotCutOff) {
 TEST(RecordingFile, OtherFiles_AreRefusedByName) {
   EXPECT_THAT(open_memory({'2', '.', '1', ' ', 'a', ' ', '2', '5', ' '}).error().message, HasSubstr("not a recording"));
   auto later = encode_beginning(stream_header());
-  later[7] = 2;
+  later[7] = 3;
+  EXPECT_EQ(open_memory(later).error().code, ErrorCode::unsupported);
+  later[7] = 0;
   EXPECT_EQ(open_memory(later).error().code, ErrorCode::unsupported);
 }
 
@@ -290,21 +300,125 @@ TEST(RecordingFile, Golden) {
   const auto chunk = encode_chunk(std::vector<RecordingFrame>{{42, 5000, smile}, {43, 5040, more}}, 3);
   EXPECT_EQ(hex(chunk),
             "43484e4b"          // CHNK
-            "17000000"          // 23 bytes of messages
-            "b591f4ed"          // CRC-32 from here on to the end
+            "1b000000"          // 27 bytes of messages
+            "1382f534"          // CRC-32 from here on to the end
             "02000000"          // frames
             "02000000"          // two
             "03000000"          // three were lost before
             "2a00000000000000"  // number 42
             "8813000000000000"  // from 5000 ms
             "b013000000000000"  // to 5040 ms
-            "0b"                // a keyframe of 11 bytes
-            "032a88270501021e80040a"
-            "0a"  // frames of 10 bytes
-            "042b8827012804800404");
+            "0d"                // a keyframe of 13 bytes
+            "092a8827bcffb0f772972540a1"
+            "0c"  // frames of 12 bytes
+            "ab0373039aaa48be514d6d68");
   const auto read = read_frames_chunk(chunk);
   ASSERT_TRUE(read);
   EXPECT_EQ(read->back(), (RecordingFrame{43, 5040, more}));
+}
+
+/// The same two frames as the program wrote them before version 2.
+TEST(RecordingFile, GoldenOfVersion1_IsStillRead) {
+  FaceFrame more;
+  more.viseme = {1, 2, 30};
+  more.level[12] = 7;
+  const auto read =
+      read_frames_chunk(bytes_of_hex("43484e4b"          // CHNK
+                                     "17000000"          // 23 bytes of messages
+                                     "b591f4ed"          // CRC-32 from here on to the end
+                                     "02000000"          // frames
+                                     "02000000"          // two
+                                     "03000000"          // three were lost before
+                                     "2a00000000000000"  // number 42
+                                     "8813000000000000"  // from 5000 ms
+                                     "b013000000000000"  // to 5040 ms
+                                     "0b"                // a keyframe of 11 bytes
+                                     "032a88270501021e80040a"
+                                     "0a"  // frames of 10 bytes
+                                     "042b8827012804800404"));
+  ASSERT_TRUE(read) << read.error().message;
+  ASSERT_EQ(read->size(), 2U);
+  EXPECT_EQ(read->back(), (RecordingFrame{43, 5040, more}));
+  more.level[12] = 5;
+  EXPECT_EQ(read->front(), (RecordingFrame{42, 5000, more}));
+}
+
+/// The messages of a chunk with a head and a checksum of their own.
+std::vector<std::uint8_t> version_1_chunk(const std::vector<RecordingFrame>& frames,
+                                          const std::vector<std::vector<std::uint8_t>>& messages) {
+  auto chunk = encode_chunk(frames, 0);
+  chunk.resize(chunk_head_bytes);
+  for (const auto& message : messages) {
+    byte_io::append_varint(chunk, message.size());
+    chunk.insert(chunk.end(), message.begin(), message.end());
+  }
+  byte_io::put_u32(&chunk[4], static_cast<std::uint32_t>(chunk.size() - chunk_head_bytes));
+  byte_io::put_u32(&chunk[8], static_cast<std::uint32_t>(crc32_z(0, &chunk[12], chunk.size() - 12)));
+  return chunk;
+}
+
+/// Keyframe and batch of these frames in the form of version 1.
+std::vector<std::vector<std::uint8_t>> version_1_messages(const std::vector<RecordingFrame>& frames) {
+  Frames rest{frames[0].sequence + 1, frames[0].media_time, {}};
+  for (const auto& frame : std::span(frames).subspan(1))
+    rest.frames.push_back({static_cast<std::uint32_t>(frame.media_time - frames[0].media_time), frame.state});
+  return {testing::varint_keyframe({frames[0].sequence, frames[0].media_time, frames[0].state}),
+          testing::varint_frames(rest, frames[0].state)};
+}
+
+TEST(RecordingFile, OfVersion1_IsReadWhole) {
+  const auto frames = random_frames(3000, 11);
+  auto bytes = encode_beginning(stream_header());
+  bytes[7] = 1;
+  for (std::size_t i = 0; i < frames.size(); i += 600) {
+    const std::vector<RecordingFrame> part(frames.begin() + static_cast<std::ptrdiff_t>(i),
+                                           frames.begin() + static_cast<std::ptrdiff_t>(i) + 600);
+    const auto chunk = version_1_chunk(part, version_1_messages(part));
+    bytes.insert(bytes.end(), chunk.begin(), chunk.end());
+  }
+  const auto reader = open_memory(bytes);
+  ASSERT_TRUE(reader) << reader.error().message;
+  EXPECT_EQ(reader->header(), stream_header());
+  EXPECT_EQ(all_frames(*reader), frames);
+}
+
+TEST(RecordingFile, DamagedMessagesOfVersion1_AreRefusedOrValid) {
+  const auto frames = random_frames(5, 12);
+  const auto good = version_1_messages(frames);
+  ASSERT_TRUE(read_frames_chunk(version_1_chunk(frames, good)));
+  for (std::size_t message = 0; message < good.size(); ++message) {
+    for (std::size_t size = 0; size < good[message].size(); ++size) {
+      auto cut = good;
+      cut[message].resize(size);
+      EXPECT_FALSE(read_frames_chunk(version_1_chunk(frames, cut))) << message << " at " << size;
+    }
+    for (std::size_t bit = 0; bit < 8 * good[message].size(); ++bit) {
+      auto flipped = good;
+      flipped[message][bit / 8] ^= static_cast<std::uint8_t>(1U << bit % 8);
+      const auto read = read_frames_chunk(version_1_chunk(frames, flipped));
+      for (std::size_t i = 0; read && i < read->size(); ++i) EXPECT_TRUE(is_valid((*read)[i].state)) << bit;
+    }
+  }
+}
+
+TEST(RecordingFile, ImpossibleMessagesOfVersion1_AreRefused) {
+  const std::vector<RecordingFrame> two = {{1, 0, {}}, {2, 40, {}}};
+  const std::vector<std::uint8_t> key = {3, 1, 0, 0};
+  const std::vector<std::vector<std::uint8_t>> keys = {{3, 1, 0, 0x80, 0x10},               // bit 11 of a state
+                                                       {3, 1, 0, 1, 15, 0, 0},              // viseme 15
+                                                       {3, 1, 0, 2, 0, 64, 0, 0},           // an intensity of 64
+                                                       {3, 1, 0, 4, 0},                     // an empty mask
+                                                       {3, 1, 0, 0x80, 8, 0x10, 2},         // a mask beyond its group
+                                                       {3, 1, 0, 4, 1, 0x80, 0x80, 0x04},   // a level of 32768
+                                                       {3, 1, 0, 4, 2, 0xFF, 0xFF, 0x03}};  // one of -32768
+  for (const auto& each : keys) EXPECT_FALSE(read_frames_chunk(version_1_chunk({two[0]}, {each}))) << hex(each);
+  const std::vector<std::vector<std::uint8_t>> batches = {
+      {4, 2, 0, 0},                             // none
+      {4, 2, 0, 0x81, 0x08},                    // 1025
+      {4, 2, 0, 1, 0x81, 0xB8, 0x99, 0x29, 0},  // a day and 1 ms later
+      {3, 2, 0, 0}};                            // a keyframe
+  for (const auto& each : batches) EXPECT_FALSE(read_frames_chunk(version_1_chunk(two, {key, each}))) << hex(each);
+  EXPECT_TRUE(read_frames_chunk(version_1_chunk(two, {key, {4, 2, 0, 1, 40, 0}})));
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,7 +9,7 @@
 #include "clients/runtime/semblante.h"
 #include "protocol/cpp/frame_codec.h"
 #include "protocol/cpp/messages.h"
-#include "protocol/cpp/packed_codec.h"
+#include "tests/support/frame_encoder.h"
 
 namespace semblante::testing {
 
@@ -92,17 +91,15 @@ class ScriptedServer {
     header.media_time = media_time;
     header.fps_hint = 25;
     header.batch_interval = 100;
-    header.coding = StreamCoding::packed;
     return header;
   }
   /// Header and keyframe; frames follow by `batch`.
   void greet(const Header& header, const Keyframe& keyframe, double now) {
     say(header, now);
-    packed_.emplace(keyframe);
-    say_bytes(packed_->keyframe(), now);
+    say(keyframe, now);
   }
   void batch(std::uint64_t media_time, const std::vector<TimedFrame>& frames, double now) {
-    say_bytes(packed_->encode(Frames{0, media_time, frames}), now);
+    say(Frames{0, media_time, frames}, now);
   }
   /// Started, connected and greeted at `now`, with nothing left to take.
   void begin(double now, std::uint64_t media_time = 5000) {
@@ -118,7 +115,6 @@ class ScriptedServer {
  private:
   FrameDecoder from_client_;
   FrameEncoder to_client_;
-  std::optional<PackedEncoder> packed_;
 };
 
 }  // namespace semblante::testing

@@ -18,7 +18,7 @@ using std::chrono::hours;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-constexpr std::array codings = {Coding::packed, Coding::plain, Coding::json};
+constexpr std::array codings = {Coding::packed, Coding::json};
 const Clock::time_point began{hours(1)};
 
 /// The frame whose sequence number a reader can tell from its face.
@@ -226,11 +226,11 @@ TEST_F(BatchLogTest, Resume_WhereNoBatchEnded_OrInAnotherLife_BringsTheJoinPoint
                                    {ResumePoint{7, 900}, "a future it cannot have seen"},
                                    {ResumePoint{6, 3}, "another epoch"},
                                    {ResumePoint{8, 6}, "another epoch's newest"}}) {
-    const auto begin = log.begin(Coding::plain, point);
+    const auto begin = log.begin(Coding::packed, point);
     EXPECT_FALSE(begin.recovered) << why;
-    EXPECT_EQ(begin.wire, log.join_point(Coding::plain)) << why;
+    EXPECT_EQ(begin.wire, log.join_point(Coding::packed)) << why;
   }
-  EXPECT_FALSE(log.begin(Coding::plain, std::nullopt).recovered);
+  EXPECT_FALSE(log.begin(Coding::packed, std::nullopt).recovered);
 }
 
 TEST_F(BatchLogTest, Hold_ExpiresByCount) {

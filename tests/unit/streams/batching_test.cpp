@@ -8,6 +8,7 @@
 
 #include "protocol/cpp/frame_codec.h"
 #include "server/streams/batch_sender.h"
+#include "tests/support/frame_encoder.h"
 #include "tests/support/wait.h"
 #include "tests/unit/streams/fake_socket.h"
 #include "tests/unit/streams/feeding.h"
@@ -157,28 +158,24 @@ TEST_F(BatchingTest, Resume_BringsTheGapInOneGo_OrSaysThatItIsTooLong) {
   EXPECT_EQ(resume(7).size(), 2U) << "a future it cannot have seen";
 }
 
-TEST_F(BatchingTest, Coding_IsTheOneAskedFor_AndASaidOne) {
+TEST_F(BatchingTest, BinarySubscribers_ShareTheBytesOfABatch) {
   stream_ = make_stream(0);
   publish(1);
-  const auto join = [&](StreamCoding coding, std::uint64_t resume) {
+  const auto join = [&](std::uint64_t resume) {
     auto client = std::make_unique<FakeClient>(stream_, true);
     Hello hello;
-    hello.coding = coding;
     if (resume != 0) hello.resume = ResumePoint{7, resume};
     const auto bytes = FrameEncoder().encode(hello);
     client->connection->receive({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, true);
     return client;
   };
-  const auto plain = join(StreamCoding::plain, 0);
-  const auto packed = join(StreamCoding::packed, 0);
-  const auto other = join(StreamCoding::packed, 0);
+  const auto one = join(0);
+  const auto other = join(0);
   publish(2);
-  EXPECT_EQ(packed->socket->last_wire(), other->socket->last_wire());
-  EXPECT_NE(packed->socket->last_wire(), plain->socket->last_wire());
+  EXPECT_EQ(one->socket->last_wire(), other->socket->last_wire());
   publish(3);
-  const auto back = join(StreamCoding::packed, 2);
-  for (const auto& [client, coding] :
-       {std::pair{&plain, StreamCoding::plain}, {&packed, StreamCoding::packed}, {&back, StreamCoding::packed}}) {
+  const auto back = join(2);
+  for (const auto* client : {&one, &other, &back}) {
     const auto payloads = (*client)->socket->take_payloads();
     const bool resumed = client == &back;
     ASSERT_EQ(payloads.size(), resumed ? 3U : 4U);
@@ -189,12 +186,9 @@ TEST_F(BatchingTest, Coding_IsTheOneAskedFor_AndASaidOne) {
       ASSERT_TRUE(message) << message.error().message;
       messages.push_back(*message);
     }
-    EXPECT_EQ(std::get<Header>(messages[0]).coding, coding);
     EXPECT_EQ(std::get<Header>(messages[0]).recovered, resumed);
     EXPECT_EQ(std::get<Keyframe>(messages[1]).state.level[3], resumed ? 2 : 1);
     EXPECT_EQ(std::get<Frames>(messages.back()).frames.at(0).state.level[3], 3);
-    const auto first = static_cast<std::uint8_t>(payloads.back()[0]);
-    EXPECT_EQ(is_packed_frames(first), coding == StreamCoding::packed);
   }
 }
 
@@ -268,12 +262,9 @@ TEST_F(BatchingTest, ComingGoingAndFallingBehind_WhileTheSenderSends_BreaksNobod
       std::this_thread::sleep_for(std::chrono::microseconds(100));
     }
   });
-  int came = 0;
   const auto come = [&] {
     auto client = std::make_unique<FakeClient>(stream_, true);
-    Hello words;
-    words.coding = ++came % 2 == 0 ? StreamCoding::plain : StreamCoding::packed;
-    const auto hello = FrameEncoder().encode(words);
+    const auto hello = FrameEncoder().encode(Hello());
     client->connection->receive({reinterpret_cast<const char*>(hello.data()), hello.size()}, true);
     return client;
   };

@@ -119,7 +119,6 @@ TEST_F(StreamTest, HeaderOfRecordings_SaysAllThatSubscribersAreToldOfTheStream) 
   // What is about the connection, or the moment.
   told.media_time = recorded.media_time;
   told.server_time = recorded.server_time;
-  told.coding = recorded.coding;
   EXPECT_EQ(told, recorded);
 }
 

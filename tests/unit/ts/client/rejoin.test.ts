@@ -83,7 +83,6 @@ class Server {
         quantizers: [],
         recovered,
         viseme_share: null,
-        coding: 'plain',
       } satisfies Header,
       {
         type: 'keyframe',

@@ -21,7 +21,6 @@ const header: Header = {
   quantizers: [],
   recovered: false,
   viseme_share: null,
-  coding: 'plain',
 };
 const state = (level: number): FaceFrame => {
   const frame = neutralFrame();
@@ -63,7 +62,7 @@ describe('StreamClient', () => {
     FakeSocket.last.accept();
     expect(FakeSocket.last.protocols).toEqual(['semblante.v1']);
     expect(FakeSocket.last.sent).toEqual([
-      { type: 'hello', version: 1, role: 'subscribe', resume: null, coding: 'packed', take_over: false },
+      { type: 'hello', version: 1, role: 'subscribe', resume: null, take_over: false },
     ]);
     FakeSocket.last.give(header);
     expect(stream.state).toBe('open');
@@ -136,7 +135,7 @@ describe('StreamClient', () => {
     stream.connect();
     FakeSocket.last.accept();
     FakeSocket.last.give(header);
-    FakeSocket.last.giveRaw(Uint8Array.from([3, 1]).buffer);
+    FakeSocket.last.giveRaw(Uint8Array.from([9, 1]).buffer);
     expect(events.at(-2)).toMatchObject(['fault', { code: 'malformed' }]);
     expect(stream.state).toBe('waiting');
   });
@@ -147,7 +146,7 @@ describe('StreamClient', () => {
     FakeSocket.last.accept();
     FakeSocket.last.give(header);
     FakeSocket.last.give(keyframe(41));
-    FakeSocket.last.giveRaw(Uint8Array.from([4, 50, 0, 1, 0, 0]).buffer);
+    FakeSocket.last.giveRaw(Uint8Array.from([128 + 50, 0]).buffer);
     expect(events.find(([name]) => name === 'fault')).toMatchObject(['fault', { code: 'mismatch' }]);
     expect(stream.state).toBe('waiting');
   });

@@ -1,8 +1,9 @@
 import { StreamClient, type StreamOptions } from '../../../../clients/js/index.ts';
-import { packedFramesType, packedKeyframeType, type Header, type Message } from '../../../../protocol/ts/index.ts';
-import { FrameDecoder, FrameEncoder } from './plain_codec.ts';
+import { ByteReader, ByteWriter } from '../../../../protocol/ts/byte_io.ts';
+import { messages, type Frames, type Header, type Keyframe, type Message } from '../../../../protocol/ts/messages.ts';
+import { decodeMessage, encodeMessage } from './message_codec.ts';
 
-/** A WebSocket whose other end is the test. It speaks the plain form, and reads the packed one by the library. */
+/** A WebSocket whose other end is the test. The library codes the messages that carry a face. */
 export class FakeSocket {
   static sockets: FakeSocket[] = [];
   static get last(): FakeSocket {
@@ -19,23 +20,19 @@ export class FakeSocket {
   readonly sent: Message[] = [];
   readonly url: string;
   readonly protocols: string[];
-  private readonly encoder = new FrameEncoder();
-  private readonly decoder = new FrameDecoder();
-  private reader: FakeSocket | null = null;
+  private reader: Far | null = null;
+  private writer: FaceWriter | null = null;
 
   constructor(url: string, protocols: string[]) {
     this.url = url;
     this.protocols = protocols;
-    if (url !== readerUrl) FakeSocket.sockets.push(this);
-    else FakeSocket.newestReader = this;
+    FakeSocket.sockets.push(this);
   }
-  private static newestReader: FakeSocket | null = null;
 
   // the client's side
   send(data: Uint8Array): void {
-    const type = data[0]!;
-    if (type === packedKeyframeType || type >= packedFramesType) this.packedReader().giveRaw(data.slice().buffer);
-    else this.sent.push(this.decoder.decode(data));
+    if (data[0] !== keyframeType && data[0]! < framesType) this.sent.push(decodeMessage(data));
+    else this.faceReader().give(data);
   }
   close(code: number): void {
     this.closedWith = code;
@@ -47,7 +44,11 @@ export class FakeSocket {
     this.onopen?.();
   }
   give(message: Message): void {
-    this.giveRaw(this.encoder.encode(message).buffer as ArrayBuffer);
+    let bytes: Uint8Array;
+    if (message.type === 'keyframe') bytes = (this.writer = new FaceWriter()).keyframe(message);
+    else if (message.type === 'frames') bytes = this.writer!.frames(message);
+    else bytes = encodeMessage(message);
+    this.giveRaw(bytes.slice().buffer);
   }
   giveRaw(data: ArrayBuffer | string): void {
     this.onmessage?.({ data });
@@ -56,27 +57,89 @@ export class FakeSocket {
     this.onclose?.();
   }
 
-  private packedReader(): FakeSocket {
+  private faceReader(): Far {
     if (this.reader) return this.reader;
-    const client = new StreamClient(readerUrl, {
-      WebSocket: FakeSocket as unknown as NonNullable<StreamOptions['WebSocket']>,
-      now: () => 0,
-      pingInterval: 0,
-    });
-    client.on('keyframe', (keyframe) => this.sent.push(keyframe));
-    client.on('frames', (frames) => this.sent.push(frames));
-    client.on('fault', (fault) => {
-      throw fault;
-    });
-    client.connect();
-    this.reader = FakeSocket.newestReader!;
-    this.reader.accept();
-    this.reader.give(headerOf({}));
+    this.reader = new Far('subscribe');
+    this.reader.client.on('keyframe', (keyframe) => this.sent.push(keyframe));
+    this.reader.client.on('frames', (frames) => this.sent.push(frames));
     return this.reader;
   }
 }
 
-const readerUrl = 'ws://reader';
+const typeOf = (name: Message['type']): number => messages.find((message) => message.name === name)!.type;
+const keyframeType = typeOf('keyframe');
+const framesType = typeOf('frames');
+
+/** A client of its own that is connected to nothing but this: it reads what it is given, or writes what it publishes. */
+class Far {
+  readonly client: StreamClient;
+  readonly sent: Uint8Array[] = [];
+  private onmessage: ((event: { data: ArrayBuffer }) => void) | null = null;
+
+  constructor(role: 'subscribe' | 'publish') {
+    let open: (() => void) | null = null;
+    const far = this;
+    class Socket {
+      bufferedAmount = 0;
+      set onopen(call: () => void) {
+        open = call;
+      }
+      set onmessage(call: (event: { data: ArrayBuffer }) => void) {
+        far.onmessage = call;
+      }
+      send(data: Uint8Array): void {
+        far.sent.push(data.slice());
+      }
+      close(): void {}
+    }
+    this.client = new StreamClient('ws://far', {
+      role,
+      WebSocket: Socket as unknown as NonNullable<StreamOptions['WebSocket']>,
+      now: () => 0,
+      pingInterval: 0,
+    });
+    this.client.on('fault', (fault) => {
+      throw fault;
+    });
+    this.client.connect();
+    open!();
+    this.give(encodeMessage(headerOf({})));
+    this.sent.length = 0;
+  }
+
+  give(data: Uint8Array): void {
+    this.onmessage!({ data: data.slice().buffer });
+  }
+}
+
+/** Codes a keyframe and the frames after it. A publisher counts from 0, and this writes the numbers of the messages instead. */
+class FaceWriter {
+  private readonly far = new Far('publish');
+
+  keyframe({ sequence, media_time, state }: Keyframe): Uint8Array {
+    const from = new ByteReader(this.publish([{ time: 0, state }], media_time).subarray(1));
+    from.varint();
+    from.varint();
+    const to = new ByteWriter();
+    to.u8(keyframeType);
+    to.varint(sequence);
+    to.varint(media_time);
+    to.append(from.take(from.remaining));
+    return to.finish();
+  }
+
+  frames({ sequence, media_time, frames }: Frames): Uint8Array {
+    const bytes = this.publish(frames, media_time);
+    bytes[0] = framesType + (sequence % 128);
+    return bytes;
+  }
+
+  private publish(frames: Frames['frames'], mediaTime: number): Uint8Array {
+    this.far.sent.length = 0;
+    if (!this.far.client.publish(frames, mediaTime) || this.far.sent.length !== 1) throw new RangeError('cannot be published');
+    return this.far.sent[0]!;
+  }
+}
 
 export function headerOf(given: Partial<Header>): Header {
   return {
@@ -94,7 +157,6 @@ export function headerOf(given: Partial<Header>): Header {
     quantizers: [],
     recovered: false,
     viseme_share: null,
-    coding: 'plain',
     ...given,
   };
 }

@@ -2063,10 +2063,9 @@ export interface components {
             quantizer_scale: 1 | 0.5 | 0.25 | 0.125;
             /** @description Anyone may subscribe without a token */
             is_public: boolean;
-            /** @description By what they are sent */
+            /** @description By what they are sent: the binary subprotocol has the packed form */
             subscribers_by_coding: {
                 packed: number;
-                plain: number;
                 json: number;
             };
             /** @description To all subscribers since the server started */

@@ -1,17 +1,18 @@
 #include <bit>
 #include <cassert>
 
+#include "protocol/cpp/byte_io.h"
 #include "protocol/cpp/frame_codec.h"
-#include "protocol/cpp/state_codec.h"
+#include "protocol/cpp/packed_codec.h"
 #include "protocol/cpp/utf8.h"
 
 namespace semblante {
 namespace {
 
-/// Writes the fields of one message in order. `last` is the base state of the differences of a batch.
+/// Writes the fields of one message in order.
 class BinaryFieldWriter {
  public:
-  BinaryFieldWriter(std::vector<std::uint8_t>& to, const FaceFrame& last) : to_(to), last_(last) {}
+  explicit BinaryFieldWriter(std::vector<std::uint8_t>& to) : to_(to) {}
 
   void uint(const char*, std::uint64_t value, [[maybe_unused]] std::uint64_t max, Presence) {
     assert(value <= max);
@@ -54,23 +55,6 @@ class BinaryFieldWriter {
     to_.push_back(1);
     real(name, *value, min, max, Presence::required);
   }
-  void state(const char*, const FaceFrame& state) {
-    assert(is_valid(state));
-    append_state(to_, FaceFrame{}, state);
-  }
-  void frames(const char*, const std::vector<TimedFrame>& frames) {
-    assert(!frames.empty() && frames.size() <= max_frames_per_message);
-    byte_io::append_varint(to_, frames.size());
-    const FaceFrame* before = &last_;
-    std::uint32_t time = 0;
-    for (const TimedFrame& frame : frames) {
-      assert(is_valid(frame.state) && frame.time >= time && frame.time <= max_frame_time);
-      byte_io::append_varint(to_, frame.time - time);
-      append_state(to_, *before, frame.state);
-      before = &frame.state;
-      time = frame.time;
-    }
-  }
 
  private:
   /// Trailing appended fields with default values are omitted, as writers of earlier versions omit them. The default
@@ -83,39 +67,23 @@ class BinaryFieldWriter {
   }
 
   std::vector<std::uint8_t>& to_;
-  const FaceFrame& last_;
   std::size_t left_out_ = 0;  ///< number of appended fields omitted since the last written one
 };
 
 }  // namespace
 
-std::vector<std::uint8_t> FrameEncoder::encode(const Message& message) {
-  std::vector<std::uint8_t> bytes;
-  encode(message, bytes);
-  return bytes;
-}
-
-void FrameEncoder::encode(const Message& message, std::vector<std::uint8_t>& to) {
-  const auto* keyframe = std::get_if<Keyframe>(&message);
-  const auto* frames = std::get_if<Frames>(&message);
-  assert(frames == nullptr || (last_.has_value() && "frames need a keyframe before them"));
-  assert(frames == nullptr || frames->sequence == 0 || frames->sequence == last_sequence_ + 1);
-
-  const FaceFrame neutral;
-  BinaryFieldWriter writer(to, last_.has_value() ? *last_ : neutral);
+void encode_message(const Message& message, std::vector<std::uint8_t>& to) {
   std::visit(
       [&]<class M>(const M& m) {
-        to.push_back(MessageTraits<M>::type);
-        visit_fields(m, writer);
+        if constexpr (is_packed<M>) {
+          assert(false && "a PackedEncoder makes keyframes and frames");
+        } else {
+          to.push_back(MessageTraits<M>::type);
+          BinaryFieldWriter writer(to);
+          visit_fields(m, writer);
+        }
       },
       message);
-  if (keyframe != nullptr) {
-    last_ = keyframe->state;
-    last_sequence_ = keyframe->sequence;
-  } else if (frames != nullptr) {
-    last_ = frames->frames.back().state;
-    last_sequence_ += frames->frames.size();
-  }
 }
 
 }  // namespace semblante
