@@ -138,7 +138,13 @@ interface Trace {
   shown: [number | null, number | null][];
   stats: Record<string, number>;
 }
-const traces = JSON.parse(readFileSync(new URL('../../../../protocol/vectors/clock/traces.json', import.meta.url), 'utf8')) as Trace[];
+/**
+ * Without the trace in which one message spans more than 10 s: FakeSocket has its frames coded by a publisher, which may not
+ * send so many seconds together. tests/unit/runtime/playout_trace_test.cpp plays all of them.
+ */
+const traces = (JSON.parse(readFileSync(new URL('../../../../protocol/vectors/clock/traces.json', import.meta.url), 'utf8')) as Trace[]).filter(
+  ({ events }) => events.every(([kind, , first = 0, , last = 0]) => kind !== 'frames' || last - first <= 10_000),
+);
 
 class NoPoses implements PoseMaker {
   evaluateAt(): void {}
@@ -147,6 +153,7 @@ class NoPoses implements PoseMaker {
 }
 
 describe('golden traces', () => {
+  it('Traces_AreAllButOne', () => expect(traces.length).toBe(11));
   it.each(traces)('Play_IsShownAsTheFileSays: $name', (trace) => {
     let now = trace.events[0]![1]!;
     const client = new StreamClient('ws://x', {

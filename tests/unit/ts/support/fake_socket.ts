@@ -36,6 +36,7 @@ export class FakeSocket {
   }
   close(code: number): void {
     this.closedWith = code;
+    this.forget();
     this.onclose?.();
   }
 
@@ -44,17 +45,29 @@ export class FakeSocket {
     this.onopen?.();
   }
   give(message: Message): void {
-    let bytes: Uint8Array;
-    if (message.type === 'keyframe') bytes = (this.writer = new FaceWriter()).keyframe(message);
-    else if (message.type === 'frames') bytes = this.writer!.frames(message);
-    else bytes = encodeMessage(message);
-    this.giveRaw(bytes.slice().buffer);
+    if (message.type === 'keyframe') {
+      this.writer?.far.client.dispose();
+      this.writer = new FaceWriter();
+    }
+    this.giveRaw(this.coded(message).slice().buffer);
+  }
+  private coded(message: Message): Uint8Array {
+    if (message.type === 'keyframe') return this.writer!.keyframe(message);
+    if (message.type === 'frames') return this.writer!.frames(message);
+    return encodeMessage(message);
   }
   giveRaw(data: ArrayBuffer | string): void {
     this.onmessage?.({ data });
   }
   drop(): void {
+    this.forget();
     this.onclose?.();
+  }
+
+  private forget(): void {
+    this.writer?.far.client.dispose();
+    this.reader?.client.dispose();
+    this.writer = this.reader = null;
   }
 
   private faceReader(): Far {
@@ -114,7 +127,7 @@ class Far {
 
 /** Codes a keyframe and the frames after it. A publisher counts from 0, and this writes the numbers of the messages instead. */
 class FaceWriter {
-  private readonly far = new Far('publish');
+  readonly far = new Far('publish');
 
   keyframe({ sequence, media_time, state }: Keyframe): Uint8Array {
     const from = new ByteReader(this.publish([{ time: 0, state }], media_time).subarray(1));
