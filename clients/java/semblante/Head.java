@@ -1,0 +1,41 @@
+package semblante;
+
+/** A face package and its current pose: frames in, vertices out. */
+public final class Head extends Owner {
+    public final int vertexCount;
+
+    /** From the bytes of mesh.drc, weights and rig.json of one package. */
+    public Head(byte[] meshDrc, byte[] weights, byte[] rigJson) {
+        super(Native.headCreate(meshDrc, weights, rigJson, false));
+        vertexCount = Native.headVertexCount(handle());
+    }
+
+    @Override
+    void destroy(long handle) {
+        Native.headDestroy(handle);
+    }
+
+    /** 3 vertex numbers of each triangle. */
+    public int[] triangles() {
+        return Native.headTriangles(handle());
+    }
+
+    /** 2 floats of each vertex, origin top left; null if the mesh has none. */
+    public float[] uvs() {
+        return Native.headUvs(handle());
+    }
+
+    public void setFrame(Frame frame) {
+        Native.headSetFrame(handle(), frame.numbers);
+    }
+
+    /** Writes the vertices of the current pose: 3 floats each, model units, right-handed. */
+    public void positions(float[] to) {
+        Native.headPositions(handle(), to);
+    }
+
+    /** Writes the unit normals of `positions`. */
+    public void normals(float[] positions, float[] to) {
+        Native.headNormals(handle(), positions, to);
+    }
+}

@@ -1,0 +1,62 @@
+"""What a program that answers by declarations of libsemblante must say: the golden results. For C# and Java."""
+
+import json
+import pathlib
+import sys
+
+TOP = pathlib.Path(__file__).resolve().parents[3]
+sys.path[:0] = [str(TOP / "clients/python"), str(TOP / "tests/deploy")]
+
+VECTORS = TOP / "protocol/vectors"
+
+
+class GoldenAnswers:
+    """`process`: the program, which answers each line of its input by one line."""
+
+    process = None
+
+    def ask(self, *words):
+        print(*words, file=self.process.stdin, flush=True)
+        return self.process.stdout.readline().rstrip("\n")
+
+    def numbers(self, *words):
+        answer = self.ask(*words)
+        self.assertFalse(answer.startswith("error"), answer)
+        return [float(word) for word in answer.split()]
+
+    def test_performances_give_the_golden_frames(self):
+        self.numbers("performance", VECTORS / "performance/corners.json")
+        for golden in json.loads((VECTORS / "performance/corners.frames.json").read_text())["frames"]:
+            numbers = self.numbers("at", golden["time"])
+            for n in range(3, 69):
+                self.assertAlmostEqual(numbers[4 + n], golden["faps"].get(str(n), 0), delta=0.01)
+
+    def test_arkit_gives_the_golden_faps(self):
+        cases = json.loads((VECTORS / "bridges/bridges.json").read_text())["in"]
+        for case in cases:
+            numbers = self.numbers("arkit", *(w for pair in case["coefficients"].items() for w in pair))
+            for n, value in case["faps"].items():
+                self.assertAlmostEqual(numbers[4 + int(n)], value, delta=max(0.02, 1e-5 * abs(value)))
+
+    def test_a_head_moves_as_it_does_in_python(self):
+        import semblante
+        head = semblante.Head(*((VECTORS / "face" / name).read_bytes() for name in ("mesh.drc", "weights", "rig.json")))
+        self.assertEqual(self.numbers("head", VECTORS / "face"), [head.vertex_count, 3 * len(head.triangles.tolist())])
+        head.set_frame(semblante.frame({3: 200}))
+        moved = [x for row in head.positions().tolist() for x in row]
+        self.assertEqual(self.numbers("fap", 3, 200), moved)
+
+    def test_a_stream_is_read_and_played(self):
+        self.numbers("head", VECTORS / "face")
+        self.assertTrue(self.ask("stream").startswith("0101"))  # hello, version 1
+        messages = json.loads((VECTORS / "v1/messages.json").read_text())["messages"]
+        header = next(m["binary"] for m in messages if m["json"]["type"] == "header")
+        self.assertIn("Header", self.ask("receive", 10, header))
+        stream = json.loads((VECTORS / "v1/packed.json").read_text())["streams"][-1]["messages"]
+        for message in stream:
+            self.assertIn("Keyframe" if message["json"]["type"] == "keyframe" else "Frames", self.ask("receive", 20, message["binary"]))
+        self.assertTrue(self.ask("play", 30, 16).startswith("True True "))
+
+    def test_errors_are_exceptions_with_words(self):
+        self.assertRegex(self.ask("performance", VECTORS / "face/weights"), "^error malformed ")
+        self.assertEqual(self.ask("wait"), "done")  # objects that failed to be made are collected
