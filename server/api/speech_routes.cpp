@@ -107,6 +107,8 @@ auto take_voice_slot(Context& context) {
 voice::Speech make(Context& context, const voice::SpeechRequest& request) {
   const auto slot = take_voice_slot(context);
   auto speech = voice::make_speech(context.config.voice, request);
+  if (!speech && speech.error().code == ErrorCode::unsupported)
+    refuse("invalid-field", speech.error().message, "/" + speech.error().where);
   if (!speech) refuse("voice-failed", "the voice: " + speech.error().message);
   return *std::move(speech);
 }

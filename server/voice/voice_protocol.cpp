@@ -165,7 +165,11 @@ std::string line_of(const VoiceName& name) {
   return line({{"voice", name.voice}, {"label", name.label}, {"language", name.language}});
 }
 std::string end_line() { return line({{"end", true}}); }
-std::string error_line(std::string_view message) { return line({{"error", message}}); }
+std::string error_line(std::string_view message, std::string_view member) {
+  json error = {{"error", message}};
+  if (!member.empty()) error["of"] = member;
+  return line(error);
+}
 
 Status VoiceAnswer::take(std::string_view text) {
   if (ended_) return refused(ErrorCode::malformed, "", "goes on after its end");
@@ -179,8 +183,11 @@ Status VoiceAnswer::take(std::string_view text) {
   if (report) return failed();
   if (const auto message = root.optional_member("error")) {
     const std::string words = printable(message->text());
+    const std::string member = root.text_or("of", "");
     if (report) return failed();
-    return Error{ErrorCode::invalid_argument, "", "the voice: " + words};
+    if (member == "language" || member == "voice" || member == "text")
+      return Error{ErrorCode::unsupported, member, words};
+    return Error{ErrorCode::invalid_argument, "", words};
   }
   if (!begun_) {
     (void)root.member("protocol").integer(protocol_version, protocol_version);

@@ -56,12 +56,14 @@ std::string line_of(const SpokenSentence& sentence);
 std::string line_of(const SpokenMark& mark);
 std::string line_of(const VoiceName& name);
 std::string end_line();
-std::string error_line(std::string_view message);
+/// `member` of the request that the voice cannot serve ("language", "voice", "text"); empty: none of them is to blame.
+std::string error_line(std::string_view message, std::string_view member = "");
 
 /// Reads an answer line by line. A voice is another's program: every line is checked.
 class VoiceAnswer {
  public:
-  /// A line without its newline. After an error the answer is of no use.
+  /// A line without its newline. After an error the answer is of no use. `unsupported`, with the member in `where`: the
+  /// voice cannot serve this request.
   Status take(std::string_view line);
   /// The utterance, once `end` has come.
   Result<Utterance> finish() &&;

@@ -24,8 +24,8 @@ constexpr std::size_t samples_a_line = 16'384;
 
 void say(const std::string& line) { std::cout.write(line.data(), static_cast<std::streamsize>(line.size())); }
 
-int refuse(const std::string& message) {
-  say(error_line(message));
+int refuse(const std::string& message, std::string_view member = "") {
+  say(error_line(message, member));
   std::cout.flush();
   return 2;
 }
@@ -153,7 +153,9 @@ int run() {
                         espeakINITIALIZE_PHONEME_EVENTS | espeakINITIALIZE_PHONEME_IPA | espeakINITIALIZE_DONT_EXIT);
   if (rate <= 0) return refuse("espeak-ng finds no data: is espeak-ng-data installed?");
   if (request->list) return list_voices(rate);
-  if (!choose_voice(*request)) return refuse("there is no voice " + request->voice + " for " + request->language);
+  if (!choose_voice(*request))
+    return request->voice.empty() ? refuse("there is no voice for " + request->language, "language")
+                                  : refuse("there is no voice " + request->voice, "voice");
   espeak_SetParameter(espeakRATE, static_cast<int>(usual_words_per_minute * request->rate), 0);
   espeak_SetParameter(espeakPITCH, std::min(99, static_cast<int>(usual_pitch * request->pitch)), 0);
   espeak_SetPhonemeTrace(espeakPHONEMES_SHOW | espeakPHONEMES_IPA | '_' << 8, trace.stream());
@@ -169,7 +171,7 @@ int run() {
   const unsigned flags = espeakCHARS_UTF8 | espeakENDPAUSE | (request->ssml ? espeakSSML : 0U);
   const auto code =
       espeak_Synth(request->text.c_str(), request->text.size() + 1, 0, POS_CHARACTER, 0, flags, nullptr, nullptr);
-  if (speaking.too_long) return refuse("the sound is longer than " + std::to_string(int(max_seconds)) + " s");
+  if (speaking.too_long) return refuse("the sound is longer than " + std::to_string(int(max_seconds)) + " s", "text");
   if (code != EE_OK || speaking.broken) return refuse("espeak-ng failed with code " + std::to_string(code));
   say(end_line());
   std::cout.flush();

@@ -30,8 +30,11 @@ if request["protocol"] == 1 and request.get("list"):
     say(voice="beeps", label="Tones", language="en")
     say(end=True)
     sys.exit(0)
-if request["protocol"] != 1 or request.get("ssml"):
-    say(error="this voice speaks protocol 1 and plain text")
+if request["protocol"] != 1:
+    say(error="this voice speaks protocol 1")
+    sys.exit(2)
+if request.get("ssml"):
+    say(error="this voice speaks plain text", of="text")
     sys.exit(2)
 say(protocol=1, name="beeps", sample_rate=RATE)
 say(sentence=0, time=0)

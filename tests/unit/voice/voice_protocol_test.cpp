@@ -118,7 +118,13 @@ TEST(VoiceAnswer, HostileLines_AreErrors) {
            {header, "\xFF", end}}) {
     EXPECT_FALSE(answer(lines).ok()) << (lines.size() > 1 ? lines[1].substr(0, 80) : "");
   }
-  EXPECT_EQ(answer({error_line("no such voice")}).error().message, "the voice: no such voice");
+  const auto faulty = answer({error_line("out of breath")}).error();
+  EXPECT_EQ(faulty.message, "out of breath");
+  EXPECT_EQ(faulty.code, ErrorCode::invalid_argument);
+  const auto unknown = answer({error_line("no such voice", "voice")}).error();
+  EXPECT_EQ(unknown.code, ErrorCode::unsupported);
+  EXPECT_EQ(unknown.where, "voice");
+  EXPECT_EQ(answer({R"({"error":"no","of":"server"})"}).error().code, ErrorCode::invalid_argument);
 }
 
 TEST(VoiceAnswer, SoundAndEvents_AreBounded) {
