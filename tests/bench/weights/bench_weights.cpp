@@ -12,6 +12,7 @@
 #include "core/parametrize/influence_regions.h"
 #include "core/parametrize/smooth_weights.h"
 #include "core/parametrize/weights.h"
+#include "tests/bench/prior/training_head.h"
 #include "tests/bench/weights/bench_main.h"
 #include "tests/bench/weights/candidate_weights.h"
 #include "tests/bench/weights/error_regions.h"
@@ -64,6 +65,32 @@ constexpr WeightPrior::Entry without_measured[] = {
 constexpr WeightPrior::Entry without_makehuman[] = {
 #include "tests/golden/parametrize/prior_without_makehuman.inc"
 };
+constexpr WeightPrior::Entry without_ict[] = {
+#include "tests/golden/parametrize/prior_without_ict.inc"
+};
+
+/// Each shape predicted by a fit to the others, with a prior that has not seen the head and with the product's.
+void print_left_out(const char* name, const ExpressionStudy& study, const WeightPrior& unseen) {
+  const WeightFit strange = fitted_shares(study, study, unseen).fit;
+  const WeightFit known = fitted_shares(study, study, trained_weight_prior()).fit;
+  std::printf("%-45s %6.3f %7.3f %7.3f\n", name, strange.smooth_error(), strange.error(), known.error());
+  std::fflush(stdout);
+}
+
+void print_fits(const std::filesystem::path& folder, const ExpressionStudy& ict, const ExpressionStudy& makehuman) {
+  std::printf("\nshapes that the fit has not seen %19s %7s %7s\n", "smooth", "fitted", "product");
+  print_left_out("ict-facekit, each of the 14 by the other 13", ict, WeightPrior(without_ict));
+  print_left_out("ict-facekit, each of the 53 by the other 52",
+                 read_ict_shapes(folder, 0, [](const std::string&) { return true; }), WeightPrior(without_ict));
+  const ExpressionStudy others =
+      read_ict_shapes(folder, 0, [](const std::string& shape) { return !is_measured(shape); });
+  const WeightPrior prior(without_measured);
+  const Figures smooth = measure(ict, smooth_shares(ict, prior));
+  const Figures fitted = measure(ict, fitted_shares(ict, others, prior).shares);
+  std::printf("%-45s %6.3f %7.3f         visible %.3f %.3f\n", "ict-facekit, the 14 by the other shapes", smooth.error,
+              fitted.error, smooth.visible_error, fitted.visible_error);
+  print_left_out("makehuman, each of the 19 by the other 18", makehuman, WeightPrior(without_makehuman));
+}
 
 void print_region_row(const char* name, const ByRegion& values) {
   std::printf("%-22s %6.3f", name, std::accumulate(values.begin(), values.end(), 0.0));
@@ -194,6 +221,7 @@ void run(const std::filesystem::path& folder) {
   print("smooth", other, smooth_shares(other, trained_weight_prior()));
   print("smooth, no prior", other, smooth_shares(other, {}));
   print_fitted("fitted", other, other, trained_weight_prior());
+  print_fits(folder, study, other);
   print_regions("ict-facekit", study, WeightPrior(without_measured));
   print_regions("makehuman", other, WeightPrior(without_makehuman));
   std::printf("\nseconds for all points, and whole parametrizations as multiples of the baseline's distances\n");
