@@ -49,6 +49,7 @@ export class FapSliders {
   readonly element = h('div', { class: 'fap-groups' });
   private readonly sliders = new Map<number, Slider>();
   private readonly counts = new Map<number, HTMLElement>();
+  private readonly resets = new Map<number, HTMLButtonElement>();
   private readonly groups: Group[] = [];
   private readonly nothing = h('p', { class: 'empty', hidden: true }, t('No face parameter matches.'));
   private words = '';
@@ -112,6 +113,7 @@ export class FapSliders {
     for (const [group, count] of this.counts) {
       const moved = faps.filter((fap) => fap.group === group && this.options.frame.levels[fap.number] !== 0).length;
       setText(count, moved === 0 ? '' : t('{moved} moved', { moved }));
+      this.resets.get(group)!.disabled = moved === 0;
     }
   }
 
@@ -135,6 +137,7 @@ export class FapSliders {
       },
       icon('reset', 15),
     );
+    this.resets.set(group, reset);
     const body = h('div', { class: 'fap-list' });
     const details = h(
       'details',
