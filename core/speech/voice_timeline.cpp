@@ -15,7 +15,9 @@ namespace {
 
 constexpr double most_ms = max_speech_seconds * 1000.0;
 constexpr double ms_per_s = 1000.0, ticks_per_ms = 10'000.0;
-constexpr double least_gap_ms = 20.0;         ///< a shorter one between two sounds is none
+constexpr double least_gap_ms = 20.0;  ///< a shorter one between two sounds is none
+constexpr std::size_t most_sounds_a_second =
+    60;                                       ///< three times as many as anybody says; more would take long to animate
 constexpr double last_sound_ms = 200.0;       ///< of a sound whose end nobody says
 constexpr double past_the_sound_ms = 1000.0;  ///< that an event may come
 constexpr std::size_t most_symbol_bytes = 32, most_text_bytes = 2000;
@@ -66,6 +68,11 @@ class Builder {
     if (!take_time(phoneme.time, timeline_.phonemes, where)) return;
     if (end && !(*end >= phoneme.time && *end <= most_ms))
       return fail(ErrorCode::out_of_range, where, "ends before it begins, or after the longest speech");
+    const auto& sounds = timeline_.phonemes;
+    if (sounds.size() >= most_sounds_a_second &&
+        phoneme.time - sounds[sounds.size() - most_sounds_a_second].time < ms_per_s)
+      return fail(ErrorCode::too_large, where,
+                  "there are more than " + std::to_string(most_sounds_a_second) + " sounds within a second");
     if (sound_end_ && phoneme.time - *sound_end_ >= least_gap_ms) timeline_.phonemes.push_back({*sound_end_, ""});
     sound_end_ = end;
     reach(end.value_or(phoneme.time));

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/performance/cue.h"
+#include "core/speech/voice_timeline.h"
 #include "protocol/cpp/performance_document.h"
 #include "server/access/client_limits.h"
 #include "server/access/tickets.h"
@@ -138,6 +139,7 @@ TEST(Limits, OfTheReadMe_AreThoseThatAreKept) {
       {"stored speeches", count(api.max_speeches)},
       {"text of a speech", count(voice::max_text_bytes) + " bytes"},
       {"sound of a speech", count(static_cast<std::uint64_t>(voice::max_seconds)) + " s"},
+      {"timeline of another voice", size(max_timeline_bytes) + ", " + count(max_timeline_events) + " events"},
       {"time in which a voice must have spoken", count(api::longest_speech_seconds) + " s"},
       {"voices that speak at the same time", "half of `--threads`"},
       {"files of an example, together", size(api.max_upload_bytes)},

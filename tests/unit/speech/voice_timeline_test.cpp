@@ -210,8 +210,13 @@ TEST(VoiceTimeline, WhatIsWrong_IsNamedWithItsPlace) {
   refused(R"({"visemes": ["PP"], "vtimes": [0, 1], "vdurations": [1]})", "/visemes", "as many");
   refused(std::string(max_timeline_bytes + 1, ' '), "", "longer than");
   std::string many;
-  for (std::size_t i = 0; i <= max_timeline_events; ++i) many += "1\tA\n";
-  refused(many, ("line " + std::to_string(max_timeline_events + 1)).c_str(), "more than");
+  for (std::size_t i = 0; i <= max_timeline_events; ++i)
+    many += R"({"time":1,"type":"word","value":"a"})"
+            "\n";
+  refused(many, ("line " + std::to_string(max_timeline_events + 1) + "/value").c_str(), "more than");
+  std::string dense;
+  for (int i = 0; i < 100; ++i) dense += "1\tA\n";
+  refused(dense, "line 61", "within a second");
 }
 
 }  // namespace
