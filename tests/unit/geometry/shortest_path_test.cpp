@@ -1,5 +1,9 @@
 #include "core/geometry/shortest_path.h"
 
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
@@ -25,6 +29,41 @@ TEST(ShortestPath, IsAsLongAsTheDistanceAndGoesAlongEdges) {
       length += glm::distance(surface.positions[path[i - 1].value()], surface.positions[path[i].value()]);
     }
     EXPECT_NEAR(length, search.from(SurfaceVertexId(from))[to], 1e-9);
+  }
+}
+
+/// By a search of the whole part: from `to` back to the predecessor with the least vertex number of all that are on a
+/// shortest path.
+std::vector<SurfaceVertexId> path_by_distances(const Surface& surface, SurfaceVertexId from, SurfaceVertexId to) {
+  EdgePathSearch search(surface);
+  const std::span<const double> distances = search.from(from);
+  std::vector<SurfaceVertexId> path = {to};
+  while (path.back() != from) {
+    std::optional<SurfaceVertexId> before;
+    for (const Surface::Step& step : surface.steps_from(path.back())) {
+      if (distances[step.to.value()] + step.length != distances[path.back().value()]) continue;
+      if (!before || step.to.value() < before->value()) before = step.to;
+    }
+    if (!before) return {};
+    path.push_back(*before);
+  }
+  std::reverse(path.begin(), path.end());
+  return path;
+}
+
+// A flat grid has many paths of one length, a wavy one hardly two.
+TEST(ShortestPath, IsThatOfASearchOfTheWholePart) {
+  for (const float height : {0.0F, 0.7F}) {
+    Model model = testing::make_grid(12, 10);
+    for (glm::vec3& p : model.positions) p.z = height * std::sin(1.7F * p.x + p.y * p.y);
+    const Surface surface = build_surface(model);
+    for (std::uint32_t from = 0; from < 143; from += 11) {
+      for (std::uint32_t to = 0; to < 143; to += 5) {
+        const SurfaceVertexId a(from);
+        const SurfaceVertexId b(to);
+        EXPECT_EQ(shortest_path(surface, a, b), path_by_distances(surface, a, b)) << from << " to " << to;
+      }
+    }
   }
 }
 
