@@ -139,8 +139,8 @@ test('Speak_LongText_BeginsWithItsFirstSentence_AndGoesOnToItsEnd', async () => 
 test('Speak_Voices_AreThoseOfTheLanguage', async () => {
   studio = await open(server.url);
   const { page } = studio;
-  await page.getByLabel('Language', { exact: true }).selectOption('en');
-  const voice = page.getByLabel('Voice', { exact: true });
+  await page.locator('.speak').getByLabel('Language').selectOption('en');
+  const voice = page.locator('.speak').getByLabel('Voice');
   await voice.getByRole('option', { name: 'Tones' }).waitFor({ state: 'attached' });
   await voice.selectOption('beeps');
   await page.getByLabel('Text to say').fill('oh');
@@ -149,7 +149,7 @@ test('Speak_Voices_AreThoseOfTheLanguage', async () => {
     page.getByRole('button', { name: 'Speak' }).click(),
   ]);
   expect(request.postDataJSON()).toMatchObject({ voice: 'beeps', language: 'en' });
-  await page.getByLabel('Language', { exact: true }).selectOption('pt-BR');
+  await page.locator('.speak').getByLabel('Language').selectOption('pt-BR');
   expect(await voice.getByRole('option').count()).toBe(1);
   expect(studio.errors).toEqual([]);
 });
