@@ -43,15 +43,17 @@ export class StudioPage {
     context.setDefaultTimeout(patience);
     const page = await context.newPage();
     const studio = new StudioPage(context, page);
+    const report = (fault: string): void => {
+      if (!options.allowed?.test(fault)) studio.errors.push(fault);
+    };
     page.on('console', (message) => {
-      const error = message.type() === 'error' || message.text().includes('Context Lost');
-      if (error && !options.allowed?.test(message.text())) studio.errors.push(message.text());
+      if (message.type() === 'error' || message.text().includes('Context Lost')) report(message.text());
     });
     page.on('pageerror', (error) => studio.errors.push(String(error)));
     page.on('requestfailed', (request) => {
       // Requests that the page itself aborted (a newer one replaced them) are not faults.
       if (request.failure()?.errorText !== 'net::ERR_ABORTED')
-        studio.errors.push(`${request.url()}: ${request.failure()?.errorText ?? ''}`);
+        report(`${request.url()}: ${request.failure()?.errorText ?? ''}`);
     });
     await page.goto(url, { waitUntil: 'domcontentloaded', timeout: patience });
     return studio;
