@@ -1,5 +1,6 @@
 import { StreamClient, type FaceFrame } from '@client/index.ts';
 import type { EndReason } from '@protocol/messages.ts';
+import { MissedFrames } from './missed_frames.ts';
 import { t } from '../words/words.ts';
 
 export interface LinkStatus {
@@ -15,6 +16,8 @@ export interface LiveStats {
   /** The stream's clock now, ms; null while its estimate is too uncertain. */
   mediaTime: number | null;
   sequence: number;
+  /** Frames that the server left out because this connection was too slow for them, or while it was lost. */
+  dropped: number;
 }
 
 const endings: Record<EndReason, string> = {
@@ -64,7 +67,10 @@ const worstUncertainty = 125;
 /** A subscription to one stream. `client` feeds the player of the face. */
 export class LiveSubscriber {
   readonly client: StreamClient;
-  readonly stats: LiveStats = { framesPerSecond: 0, bytesPerSecond: 0, mediaTime: null, sequence: 0 };
+  readonly stats: LiveStats = { framesPerSecond: 0, bytesPerSecond: 0, mediaTime: null, sequence: 0, dropped: 0 };
+  /** The newest frame received; null before the first. */
+  newest: FaceFrame | null = null;
+  private readonly missed = new MissedFrames();
   private frames = 0;
   private bytes = 0;
   private ticker: ReturnType<typeof setInterval> | null = null;
@@ -74,7 +80,14 @@ export class LiveSubscriber {
     report(this.client, title, onStatus);
     this.client.on('frames', (batch) => {
       this.frames += batch.frames.length;
+      this.newest = batch.frames.at(-1)?.state ?? this.newest;
       this.stats.sequence = batch.sequence + batch.frames.length - 1;
+      this.missed.frames(this.stats.sequence);
+    });
+    this.client.on('header', ({ epoch }) => this.missed.header(epoch));
+    this.client.on('keyframe', ({ sequence, state }) => {
+      this.newest = state;
+      this.stats.dropped = this.missed.keyframe(sequence);
     });
   }
 

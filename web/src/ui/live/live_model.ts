@@ -8,7 +8,7 @@ import type { Studio } from '../shared/studio.ts';
 import { t } from '../../words/words.ts';
 
 const off: LinkStatus = { kind: 'off' };
-const noStats: LiveStats = { framesPerSecond: 0, bytesPerSecond: 0, mediaTime: null, sequence: 0 };
+const noStats: LiveStats = { framesPerSecond: 0, bytesPerSecond: 0, mediaTime: null, sequence: 0, dropped: 0 };
 
 /** All streams, the stream that this page subscribes to, and the stream that the sliders are published to. */
 export class LiveModel {
