@@ -7,8 +7,10 @@ import { Api } from './net/api.ts';
 import type { Session } from './net/types.ts';
 import { AnimatePanel } from './ui/animate/animate_panel.ts';
 import { Address } from './ui/page/address.ts';
+import { codeButton } from './ui/code/code_dialog.ts';
 import { ClipPanel } from './ui/animate/clip_panel.ts';
 import { browserStorage, DraftStore } from './ui/points/draft_store.ts';
+import { exportButtons } from './ui/export/export_buttons.ts';
 import { h } from './ui/shared/dom.ts';
 import { makeDriverChip } from './ui/page/driver_chip.ts';
 import { FaceDriver } from './ui/stage/face_driver.ts';
@@ -26,6 +28,7 @@ import { makeLayout } from './ui/page/layout.ts';
 import { keySheetButton } from './ui/page/key_sheet.ts';
 import { languageSelect } from './ui/page/language.ts';
 import { LevelsPanel } from './ui/animate/levels_panel.ts';
+import { LiveOverlay } from './ui/live/live_overlay.ts';
 import { LiveModel } from './ui/live/live_model.ts';
 import { LivePanel } from './ui/live/live_panel.ts';
 import { Parametrizer } from './ui/points/parametrizer.ts';
@@ -73,10 +76,12 @@ function main(root: HTMLElement, session: Session | null, theme: HTMLElement): v
   const recordings = new RecordingsModel(studio, live, driver, saveFile);
   const scene = makeScene(canvas, api);
 
+  const sound = new Audio();
   const influence = new InfluenceModel(scene);
   const reader = new InfluenceReader(canvas, scene, influence);
   const animate = new AnimatePanel({
     frame,
+    exports: [codeButton(studio, live, driver), ...exportButtons({ studio, scene, driver, sound, load: loadLibrary, save: saveFile })],
     views: [
       new InfluencePanel(influence, scene).element,
       new UnitsPanel(scene, points, studio, parametrizer).element,
@@ -92,8 +97,7 @@ function main(root: HTMLElement, session: Session | null, theme: HTMLElement): v
       driver.byHand();
     },
   });
-  const clip = new ClipPanel(driver, loadLibrary);
-  const sound = new Audio();
+  const clip = new ClipPanel(driver, loadLibrary, saveFile);
   const speech = new SpeakModel(api, driver, sound, loadLibrary);
   const speak = new SpeakPanel(speech, api);
   // A page that the browser keeps for Back still has its speech.
@@ -105,10 +109,11 @@ function main(root: HTMLElement, session: Session | null, theme: HTMLElement): v
   const fitPanel = new FitPanel(studio, points, fit, parametrizer);
   const performance = new PerformancePanel(new PerformanceModel(studio, live), live);
   const recordingsPanel = new RecordingsPanel(recordings, live, studio);
-  const livePanel = new LivePanel(studio, live, performance.element, recordingsPanel.element);
+  const overlay = new LiveOverlay(live, driver);
+  const livePanel = new LivePanel(studio, live, performance.element, recordingsPanel.element, overlay.on);
   const chip = makeDriverChip({ driver, live, clip: clip.shown, recordings, scene, tab: studio.tab });
   const stagePanel = new StagePanel(canvas, scene, studio, points, chip, influence.on);
-  stagePanel.element.append(influenceLegend(influence, scene), reader.element, reader.said);
+  stagePanel.element.append(influenceLegend(influence, scene), overlay.element, reader.element, reader.said);
   const panels = {
     heads: shelf.element,
     fit: fitPanel.element,
@@ -144,7 +149,7 @@ function main(root: HTMLElement, session: Session | null, theme: HTMLElement): v
     queueMicrotask(() => kept());
   });
   routeDrops(layout, studio, performance, clip);
-  startPolling({ studio, scene, live, livePanel, recordings, performance, clip });
+  startPolling({ studio, scene, live, livePanel, overlay, recordings, performance, clip });
 
   const address = new Address(studio, points, live);
   void Promise.all([studio.start(), live.refresh()]).then(() => address.start());

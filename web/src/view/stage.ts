@@ -130,6 +130,18 @@ export class Stage {
     this.hooks.push(hook);
   }
 
+  /** The present picture as PNG, without the page's background. The canvas keeps what was drawn only within one task. */
+  picture(): Promise<Blob | null> {
+    this.renderer.render(this.scene, this.camera);
+    return new Promise((resolve) => this.canvas.toBlob(resolve, 'image/png'));
+  }
+
+  /** A colour behind the head as CSS has it, for videos, which have no transparency; null: none, the page is seen through. */
+  setBackdrop(colour: string | null): void {
+    this.renderer.setClearColor(new Color(colour ?? 0), colour === null ? 0 : 1);
+    this.invalidate();
+  }
+
   /** Fits camera and lights to an object, or to the head that is a part of it, and shows the front. */
   frameObject(object: Object3D, head: Box | null): void {
     const whole = new Box3().setFromObject(object);

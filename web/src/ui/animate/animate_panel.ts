@@ -28,6 +28,8 @@ export interface AnimatePanelOptions {
   onChange: () => void;
   /** Called when a slider of a FAP is used, with the mirror FAP that moves with it, or 0. */
   onFap: (fap: number, mirror: number) => void;
+  /** Buttons that take the face on the stage out of the page. */
+  exports: readonly HTMLElement[];
   /** What is seen on the face beside its picture: the controls of the influence view and of the units. */
   views: readonly HTMLElement[];
   /** Called when idle life is switched on or off. Fails if it cannot be played. */
@@ -97,6 +99,7 @@ export class AnimatePanel {
         h('span', { class: 'grow' }),
         this.resetAll,
       ),
+      h('div', { class: 'row wrap quick-acts', role: 'group', 'aria-label': t('Take this face along') }, ...options.exports),
       h(
         'section',
         {},

@@ -1,6 +1,7 @@
 import type { Library } from '@client/motion/index.ts';
 import { ProtocolError } from '@protocol/protocol_error.ts';
 import type { ClipPlayer } from '../../face/clip.ts';
+import { emptyDocument, type CueDocument } from '../../face/cue_sheet.ts';
 import { clipOf, readClipFile, type ClipFile } from '../../face/clip_file.ts';
 import { absentChoice, type Absent } from '../documents/absent_choice.ts';
 import { excerptAt } from '../documents/document_place.ts';
@@ -15,6 +16,8 @@ import { messageOf } from '../shared/message_of.ts';
 import { icon } from '../shared/icons.ts';
 import { capital } from '../shared/names.ts';
 import { Signal } from '../shared/signal.ts';
+import { Timeline } from './timeline.ts';
+import { TimelineModel } from './timeline_model.ts';
 import { t } from '../../words/words.ts';
 
 /** Plays a performance document or .fap file on this page only, without the server. */
@@ -30,19 +33,26 @@ export class ClipPanel {
   private absent: Absent = 'zero';
   private held = false;
   private shownPlaying = false;
+  private readonly cues = new TimelineModel((document) => this.edited(document));
+  private readonly timeline: Timeline;
   private readonly player: ClipPlayer;
 
   /** `load` gives the library that reads and plays files. */
   constructor(
     private readonly driver: FaceDriver,
     private readonly load: () => Promise<Library>,
+    private readonly save: (content: Blob, name: string) => void,
   ) {
     const player = (this.player = driver.clip);
+    const seek = (position: number): void => {
+      driver.byClip();
+      player.seek(position);
+      this.showClock();
+    };
+    this.timeline = new Timeline({ model: this.cues, position: () => player.position, seek, save: () => this.saveDocument() });
     this.seek.addEventListener('input', () => {
       this.held = true;
-      driver.byClip();
-      player.seek(Number(this.seek.value));
-      this.showClock();
+      seek(Number(this.seek.value));
     });
     this.seek.addEventListener('change', () => (this.held = false));
     this.element = h(
@@ -59,8 +69,10 @@ export class ClipPanel {
           take: (file) => void this.takeFile(file),
         }),
         exampleSelect((name, text) => void this.take(name, text)),
+        h('button', { type: 'button', on: { click: () => void this.begin() } }, icon('plus', 15), t('New performance')),
       ),
       this.body,
+      this.timeline.element,
     );
     driver.source.watch((source) => {
       // Redraw only when the clip loses the face: a redraw on gaining it would interrupt a drag of the slider.
@@ -80,19 +92,45 @@ export class ClipPanel {
     if (!this.file) return;
     if (this.player.playing !== this.shownPlaying) this.draw();
     this.showClock();
+    this.timeline.tick();
   }
 
-  private async take(name: string, text: string): Promise<void> {
+  /** A performance without cues, to be made here. */
+  private async begin(): Promise<void> {
+    await this.take('performance.json', JSON.stringify(emptyDocument(t('New performance'))), false);
+  }
+
+  /** Plays the changed document on from the same place. */
+  private edited(document: CueDocument): void {
+    const { file } = this;
+    if (!file) return;
+    this.file = { ...file, content: readClipFile(file.library, file.name, JSON.stringify(document)) };
+    this.driver.byClip();
+    this.read(true);
+    this.draw();
+  }
+
+  private saveDocument(): void {
+    const document = this.cues.document.value;
+    if (document && this.file)
+      this.save(new Blob([JSON.stringify(document, null, 1)], { type: 'application/json' }), this.file.name);
+  }
+
+  private async take(name: string, text: string, plays = true): Promise<void> {
     const number = (this.newest += 1);
     try {
       const library = await this.load();
       if (number !== this.newest) return; // another file was taken meanwhile
       this.file = { name, content: readClipFile(library, name, text), library };
+      this.cues.open(this.file.content.kind === 'performance' ? (JSON.parse(text) as CueDocument) : null);
       this.read(false);
-      this.play();
+      if (plays) return this.play();
+      this.driver.byClip();
+      this.draw();
     } catch (error) {
       if (number !== this.newest) return;
       this.file = null;
+      this.cues.open(null);
       this.player.load(null);
       this.driver.release('clip');
       this.refuse(name, error, text);

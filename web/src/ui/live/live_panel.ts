@@ -8,6 +8,7 @@ import type { LiveModel } from './live_model.ts';
 import { progressBar } from '../shared/progress_bar.ts';
 import { rove } from '../shared/roving.ts';
 import { PhoneDialog } from './phone_dialog.ts';
+import type { Signal } from '../shared/signal.ts';
 import { askForStream } from './stream_dialog.ts';
 import { StreamFacts } from './stream_facts.ts';
 import type { Studio } from '../shared/studio.ts';
@@ -57,6 +58,8 @@ export class LivePanel {
     private readonly live: LiveModel,
     performance: HTMLElement,
     recordings: HTMLElement,
+    /** Whether the figures are shown over the picture. */
+    overlay: Signal<boolean>,
   ) {
     const figure = (term: string, value: HTMLElement): HTMLElement => h('div', {}, h('dt', {}, term), value);
     this.publishBox.addEventListener('change', () => void this.togglePublish());
@@ -80,6 +83,7 @@ export class LivePanel {
           figure(t('Frame'), this.figures.frames),
         ),
         this.network,
+        this.overlaySwitch(overlay),
         new StreamFacts(live).element,
       ),
       h(
@@ -145,6 +149,17 @@ export class LivePanel {
     setText(this.figures.latency, delay !== null && delay < longestDelay ? t('{delay} ms', { delay: Math.max(0, delay) }) : '–');
     setText(this.figures.frames, open ? formatCount(stats.sequence) : '–');
     setText(this.network, open && delay !== null && player ? networkWords(player.stats) : '');
+  }
+
+  private overlaySwitch(overlay: Signal<boolean>): HTMLElement {
+    const box = h('input', { type: 'checkbox', id: 'live-overlay', role: 'switch' });
+    box.addEventListener('change', () => overlay.set(box.checked));
+    return h(
+      'label',
+      { class: 'switch-row', for: 'live-overlay' },
+      h('span', { class: 'grow' }, h('strong', {}, t('Figures on the picture'))),
+      box,
+    );
   }
 
   private drawStatus(): void {

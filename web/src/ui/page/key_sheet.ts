@@ -31,6 +31,17 @@ const sheet = (): { place: string; keys: [HTMLElement[], string][] }[] => [
     ],
   },
   {
+    place: t('Timeline'),
+    keys: [
+      [kbd('↑', '↓'), t('The cue before, the next cue')],
+      [kbd('←', '→'), t('Move the cue')],
+      [kbd('Shift', '←'), t('Shorten or lengthen the cue')],
+      [kbd('Delete'), t('Delete the cue')],
+      [kbd('Ctrl', 'Z'), t('Undo')],
+      [kbd('Ctrl', 'Shift', 'Z'), t('Redo')],
+    ],
+  },
+  {
     place: t('Everywhere'),
     keys: [
       [kbd('←', '→'), t('Another tab, when a tab has the focus')],

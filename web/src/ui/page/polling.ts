@@ -1,5 +1,6 @@
 import type { ClipPanel } from '../animate/clip_panel.ts';
 import type { LiveModel } from '../live/live_model.ts';
+import type { LiveOverlay } from '../live/live_overlay.ts';
 import type { LivePanel } from '../live/live_panel.ts';
 import type { PerformancePanel } from '../live/performance_panel.ts';
 import type { RecordingsModel } from '../recordings/recordings_model.ts';
@@ -11,14 +12,19 @@ export interface PolledParts {
   scene: SceneView;
   live: LiveModel;
   livePanel: LivePanel;
+  overlay: LiveOverlay;
   recordings: RecordingsModel;
   performance: PerformancePanel;
   clip: ClipPanel;
 }
 
 /** Updates the displays that change with time, and polls streams and recordings while the Live tab is open. */
-export function startPolling({ studio, scene, live, livePanel, recordings, performance, clip }: PolledParts): void {
-  setInterval(() => livePanel.refreshFigures(scene.performer.value?.player ?? null), 500);
+export function startPolling({ studio, scene, live, livePanel, overlay, recordings, performance, clip }: PolledParts): void {
+  setInterval(() => {
+    const player = scene.performer.value?.player ?? null;
+    livePanel.refreshFigures(player);
+    overlay.tick(player?.stats ?? null);
+  }, 500);
   setInterval(() => {
     performance.tick();
     clip.tick();

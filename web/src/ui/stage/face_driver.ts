@@ -1,9 +1,10 @@
 import type { FaceFrame, StreamClient } from '@client/index.ts';
 import type { Library } from '@client/motion/index.ts';
-import { ClipPlayer } from '../../face/clip.ts';
+import { ClipPlayer, type Clip } from '../../face/clip.ts';
 import { IdlePlayer } from '../../face/idle_player.ts';
 import type { Performer } from '../../face/performer.ts';
 import { momentOf, type SpokenClip } from '../../face/speech_clock.ts';
+import { standardQuantizers, type QuantizerSteps } from '@protocol/quantizers.ts';
 import { Signal } from '../shared/signal.ts';
 
 /**
@@ -31,6 +32,7 @@ export class FaceDriver {
   private face: DrivenFace | null = null;
   private client: StreamClient | null = null;
   private speech: SpokenClip | null = null;
+  private held: FaceFrame | null = null;
   private idle: IdlePlayer | null = null;
   private loadIdle: (() => Promise<Library>) | null = null;
 
@@ -65,6 +67,7 @@ export class FaceDriver {
   /** Shows a frame of a recording and holds it. */
   byRecording(moment: FaceFrame): void {
     this.take('recording');
+    this.held = moment;
     this.face?.follow(moment);
   }
 
@@ -104,6 +107,34 @@ export class FaceDriver {
   setClient(client: StreamClient | null): void {
     this.client = client;
     this.face?.listen(client);
+  }
+
+  /** The clip that is on the face, of a file or of a speech; null while another source drives it. */
+  get shownClip(): Clip | null {
+    const source = this.source.value;
+    return source === 'clip' ? this.clip.clip : source === 'speech' ? (this.speech?.clip ?? null) : null;
+  }
+
+  /** Whether a clip or speech moves the face now. */
+  get plays(): boolean {
+    return this.source.value === 'speech' || (this.source.value === 'clip' && this.clip.playing);
+  }
+
+  /** The frame that is on the face now, without idle life; of a stream, which the player shows, it is null. */
+  shownFrame(): { state: FaceFrame; steps: QuantizerSteps } | null {
+    const { clip } = this.clip;
+    switch (this.source.value) {
+      case 'clip':
+        return clip ? { state: clip.momentAt(this.clip.position).from.state, steps: clip.steps } : null;
+      case 'speech':
+        return this.speech ? { state: momentOf(this.speech).from.state, steps: this.speech.clip.steps } : null;
+      case 'recording':
+        return this.held ? { state: this.held, steps: standardQuantizers } : null;
+      case 'stream':
+        return null;
+      case 'hand':
+        return { state: this.frame, steps: standardQuantizers };
+    }
   }
 
   /** Advances by one displayed frame, seconds. Returns whether the pose changed. */

@@ -1,0 +1,160 @@
+import { execFileSync } from 'node:child_process';
+import { mkdirSync, mkdtempSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import type { Browser, Locator, Page } from 'playwright-core';
+import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { buildDir, root } from './support/paths.ts';
+import { eventually } from './support/patience.ts';
+import { startServer, type RunningServer } from './support/server.ts';
+import { launch, StudioPage } from './support/studio_page.ts';
+
+let server: RunningServer;
+let browser: Browser;
+const folder = mkdtempSync(join(tmpdir(), 'semblante-code-'));
+
+beforeAll(async () => {
+  [server, browser] = await Promise.all([startServer(), launch()]);
+});
+
+afterAll(async () => {
+  await browser?.close();
+  await server?.stop();
+  rmSync(folder, { recursive: true, force: true });
+});
+
+/** What a program prints; an error with its output when it fails. */
+const run = (program: string, args: string[], env: Record<string, string> = {}): string =>
+  execFileSync(program, args, { encoding: 'utf8', cwd: folder, env: { ...process.env, ...env }, maxBuffer: 64e6 });
+
+interface Frame {
+  viseme: { select1: number };
+  expression: { select1: number; intensity1: number };
+  faps: Record<string, number>;
+}
+
+/** The face that is recorded of a stream while `act` runs. */
+async function recordedFace(stream: string, act: () => void): Promise<Frame> {
+  const request = async (path: string, method = 'GET'): Promise<Record<string, unknown>> => {
+    const body = method === 'POST' ? { body: '{}', headers: { 'Content-Type': 'application/json' } } : {};
+    const response = await fetch(`${server.url}/v1/${path}`, { method, ...body });
+    if (!response.ok) throw new Error(await response.text());
+    return (await response.json()) as Record<string, unknown>;
+  };
+  const { id } = await request(`streams/${stream}/recordings`, 'POST');
+  act();
+  await eventually('a frame is recorded', async () => Number((await request(`recordings/${String(id)}`))['frames']) > 0);
+  await request(`recordings/${String(id)}/stop`, 'POST');
+  const { frames } = (await request(`recordings/${String(id)}/frames`)) as { frames: Frame[] };
+  return frames.at(-1)!;
+}
+
+/** Viseme 10 with joy at its strongest and FAP 31 moved, by hand. */
+async function makeFace(page: Page): Promise<void> {
+  await page.locator('.viseme[data-viseme="10"]').click();
+  await page.locator('.feeling-button[data-expression="1"]').click();
+  await page.getByLabel('Search face parameters').fill('31');
+  const slider = page.locator('.fap-list .slider:visible input[type="number"]').first();
+  await slider.fill('100');
+  await slider.press('Enter');
+}
+
+async function programOf(dialog: Locator, language: string): Promise<string> {
+  await dialog.getByRole('button', { name: language, exact: true }).click();
+  return (await dialog.getByLabel('Program', { exact: true }).textContent())!;
+}
+
+describe('code to copy', () => {
+  test('TheFaceOnTheStage_EachProgramMakesIt', async () => {
+    const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { width: 1440, height: 900 });
+    const { page } = studio;
+    await studio.waitForStage('ready');
+    await makeFace(page);
+    await page.getByRole('button', { name: 'Code' }).click();
+    const dialog = page.getByRole('dialog', { name: 'This face in code' });
+    await dialog.getByText('There is no stream to send into yet.').waitFor();
+    await dialog.getByRole('button', { name: 'Create a new stream' }).click();
+    await dialog.getByLabel('Stream').waitFor();
+    const stream = await dialog.getByLabel('Stream').inputValue();
+    await studio.keep('code-wide');
+
+    const curl = await programOf(dialog, 'curl');
+    const javascript = await programOf(dialog, 'JavaScript');
+    writeFileSync(join(folder, 'pose.mjs'), javascript);
+    for (const act of [() => run('bash', ['-c', curl]), () => run('node', ['pose.mjs'])]) {
+      const { viseme, expression, faps } = await recordedFace(stream, act);
+      expect(viseme.select1).toBe(10);
+      expect(expression).toMatchObject({ select1: 1, intensity1: 63 });
+      expect(Object.keys(faps)).toEqual(['31', '32']);
+      expect(Math.abs(faps['31']! - 100)).toBeLessThan(10);
+    }
+
+    // The two programs that deform must give the vertices that this page shows.
+    const shown = await page.evaluate(() => {
+      const { kernel, poseNumber } = (window as unknown as Face).semblante.scene.performer.value;
+      kernel.deform(poseNumber);
+      return [...kernel.positions];
+    });
+    const library = join(buildDir, 'lib');
+    const python = await programOf(dialog, 'Python');
+    const c = await programOf(dialog, 'C');
+    await studio.keep('code-c-wide');
+    writeFileSync(join(folder, 'pose.py'), python);
+    writeFileSync(join(folder, 'pose.c'), c);
+    mkdirSync(join(folder, 'include'));
+    symlinkSync(join(root, 'clients/runtime'), join(folder, 'include/semblante'));
+    run('bash', ['-c', /curl .*/.exec(c)![0]]);
+    const flags = ['-Wall', '-Wextra', '-Werror', '-Iinclude', `-I${root}`, `-L${library}`, '-lsemblante', `-Wl,-rpath,${library}`];
+    run(process.env['CC'] ?? 'cc', ['pose.c', ...flags, '-o', 'pose']);
+    const outputs = [
+      run('./pose', []),
+      run('python3', ['pose.py'], { PYTHONPATH: join(root, 'clients/python'), SEMBLANTE_LIBRARY: join(library, 'libsemblante.so') }),
+    ];
+    for (const output of outputs) {
+      const numbers = output.trim().split(/\s+/).map(Number);
+      expect(numbers.length).toBe(shown.length);
+      const size = Math.max(...shown.map(Math.abs));
+      const worst = Math.max(...numbers.map((value, i) => Math.abs(value - shown[i]!)));
+      expect(worst / size).toBeLessThan(1e-4);
+    }
+    expect(studio.errors).toEqual([]);
+    await studio.close();
+  });
+
+  test('Keyboard_OpensChoosesCopiesAndCloses', async () => {
+    const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { width: 390, height: 844, dark: true });
+    const { page } = studio;
+    await studio.context.grantPermissions(['clipboard-read', 'clipboard-write']);
+    await studio.waitForStage('ready');
+    await page.getByRole('button', { name: 'Code' }).focus();
+    await page.keyboard.press('Enter');
+    const dialog = page.getByRole('dialog', { name: 'This face in code' });
+    await dialog.getByRole('button', { name: 'Python' }).focus();
+    await page.keyboard.press('Space');
+    await dialog.getByText('Computes the vertices of this head').waitFor();
+    // A redraw keeps the focus on the chosen language.
+    expect(await page.evaluate(() => document.activeElement?.textContent)).toBe('Python');
+    await page.keyboard.press('Tab');
+    await page.keyboard.press('Tab');
+    expect(await page.evaluate(() => document.activeElement?.tagName)).toBe('PRE');
+    await page.keyboard.press('Tab');
+    await page.keyboard.press('Enter');
+    await dialog.getByText('Copied.').waitFor();
+    expect(await page.evaluate(() => navigator.clipboard.readText())).toContain('semblante.fetch_head(');
+    await studio.keep('code-narrow');
+    const box = (await dialog.boundingBox())!;
+    expect(box.x).toBeGreaterThanOrEqual(0);
+    expect(box.x + box.width).toBeLessThanOrEqual(390);
+    for (const button of await dialog.getByRole('button').all()) expect((await button.boundingBox())!.height).toBeGreaterThanOrEqual(44);
+    await page.keyboard.press('Escape');
+    expect(await page.locator('dialog').count()).toBe(0);
+    expect(studio.errors).toEqual([]);
+    await studio.close();
+  });
+});
+
+interface Face {
+  semblante: {
+    scene: { performer: { value: { poseNumber: number; kernel: { deform(pose: number): void; positions: Float32Array } } } };
+  };
+}

@@ -1,0 +1,142 @@
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import type { Browser, Page } from 'playwright-core';
+import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { root } from './support/paths.ts';
+import { eventually } from './support/patience.ts';
+import { startServer, type RunningServer } from './support/server.ts';
+import { launch, StudioPage } from './support/studio_page.ts';
+
+let server: RunningServer;
+let browser: Browser;
+
+beforeAll(async () => {
+  [server, browser] = await Promise.all([startServer(), launch()]);
+});
+
+afterAll(async () => {
+  await browser?.close();
+  await server?.stop();
+});
+
+interface Cue {
+  time: number;
+  duration: number;
+  viseme?: number;
+  expression?: number;
+}
+
+/** The document as it is saved. */
+async function saved(page: Page): Promise<{ duration: number; cues: Cue[] }> {
+  const [download] = await Promise.all([
+    page.waitForEvent('download'),
+    page.locator('.timeline').getByRole('button', { name: 'Save' }).press('Enter'),
+  ]);
+  return JSON.parse(readFileSync(await download.path(), 'utf8')) as { duration: number; cues: Cue[] };
+}
+
+const timeline = (page: Page) => page.locator('.timeline');
+
+describe('the timeline', () => {
+  test('NewPerformance_ByMouse_CuesAreAddedMovedLengthenedUndoneAndPlayed', async () => {
+    const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { width: 1440, height: 900 });
+    const { page } = studio;
+    await studio.waitForStage('ready');
+    expect(await timeline(page).isVisible()).toBe(false);
+    await page.getByRole('button', { name: 'New performance' }).click();
+    await timeline(page).getByText('No cues yet').waitFor();
+    await page.getByLabel('Kind of cue').selectOption('viseme-10');
+    await page.getByRole('button', { name: 'Add here' }).click();
+    const cue = timeline(page).locator('.cue').first();
+    await cue.waitFor();
+    const before = await studio.pictureAtRest();
+    await page.getByLabel('From, s').fill('0.5');
+    await page.getByLabel('From, s').press('Enter');
+    await page.getByLabel('To, s').fill('1.5');
+    await page.getByLabel('To, s').press('Enter');
+    expect((await saved(page)).cues).toMatchObject([{ time: 500, duration: 1000, viseme: 10 }]);
+
+    // A drag in the middle moves it by a second (80 pixels), one at its right edge lengthens it.
+    const drag = async (part: number): Promise<void> => {
+      await cue.scrollIntoViewIfNeeded();
+      const box = (await cue.boundingBox())!;
+      const [x, y] = [box.x + box.width * part, box.y + box.height / 2];
+      await page.mouse.move(x, y);
+      await page.mouse.down();
+      await page.mouse.move(x + 40, y, { steps: 4 });
+      await page.mouse.move(x + 80, y, { steps: 4 });
+      await page.mouse.up();
+    };
+    await drag(0.5);
+    expect((await saved(page)).cues).toMatchObject([{ time: 1500, duration: 1000 }]);
+    await drag(0.98);
+    expect((await saved(page)).cues).toMatchObject([{ time: 1500, duration: 2000 }]);
+    await timeline(page).getByRole('button', { name: 'Undo' }).click();
+    await timeline(page).getByRole('button', { name: 'Undo' }).click();
+    expect((await saved(page)).cues).toMatchObject([{ time: 500, duration: 1000 }]);
+    await timeline(page).getByRole('button', { name: 'Redo' }).click();
+    expect((await saved(page)).cues).toMatchObject([{ time: 1500, duration: 1000 }]);
+
+    // Scrubbed into the cue, the face shows it.
+    const ruler = (await timeline(page).locator('.ruler').boundingBox())!;
+    await page.mouse.click(ruler.x + 2 * 80, ruler.y + 15);
+    await studio.pictureUnlike(before, [0.3, 0.4, 0.4, 0.4], 0.3);
+    await studio.keep('timeline-wide');
+    await timeline(page).getByRole('button', { name: 'Delete the cue' }).click();
+    await timeline(page).getByText('No cues yet').waitFor();
+    expect(studio.errors).toEqual([]);
+    await studio.close();
+  });
+
+  test('Example_ByKeyboard_Narrow_CuesAreChosenMovedLengthenedDeletedAndUndone', async () => {
+    const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { width: 390, height: 844, dark: true });
+    const { page } = studio;
+    await studio.waitForStage('ready');
+    const file = join(root, 'protocol/examples/performances/hello.json');
+    const original = JSON.parse(readFileSync(file, 'utf8')) as { cues: Cue[] };
+    await studio.drop(file);
+    await timeline(page).locator('.cue').first().waitFor();
+    expect(await timeline(page).locator('.cue').count()).toBe(original.cues.length);
+    // One cue is a stop of the Tab key.
+    expect(await timeline(page).locator('.cue[tabindex="0"]').count()).toBe(1);
+    await timeline(page).locator('.cue[tabindex="0"]').focus();
+    await page.keyboard.press('ArrowDown');
+    await page.keyboard.press('ArrowUp');
+    const [first] = (await saved(page)).cues;
+    await timeline(page).locator('.cue[tabindex="0"]').focus();
+    await page.keyboard.press('Shift+ArrowRight');
+    expect((await saved(page)).cues.find(({ time }) => time === first!.time)!.duration).toBe(first!.duration + 20);
+    await timeline(page).locator('.cue[tabindex="0"]').focus();
+    await page.keyboard.press('Delete');
+    await eventually('the cue is gone', async () => (await timeline(page).locator('.cue').count()) === original.cues.length - 1);
+    await page.keyboard.press('Control+z');
+    await page.keyboard.press('Control+z');
+    await eventually('the cue is back', async () => (await timeline(page).locator('.cue').count()) === original.cues.length);
+    expect((await saved(page)).cues).toEqual(original.cues);
+    await timeline(page).scrollIntoViewIfNeeded();
+    await studio.keep('timeline-narrow');
+    expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(390);
+    for (const button of await timeline(page).locator('.timeline-tools button').all())
+      expect((await button.boundingBox())!.height).toBeGreaterThanOrEqual(44);
+    // A loop goes over the end and on.
+    await page.locator('.clip-body').getByLabel('Loop').check();
+    const player = (act: 'end' | 'look'): Promise<{ position: number; playing: boolean }> =>
+      page.evaluate((what) => {
+        const { clip } = (window as unknown as Clips).semblante.driver;
+        if (what === 'end') clip.seek(4000);
+        return { position: clip.position, playing: clip.playing };
+      }, act);
+    expect((await player('end')).position).toBe(4000);
+    if (!(await player('look')).playing) await page.locator('.clip-body').getByRole('button', { name: 'Play' }).press('Enter');
+    await eventually('the loop begins again', async () => {
+      const { position, playing } = await player('look');
+      return playing && position > 0 && position < 3000;
+    });
+    expect(studio.errors).toEqual([]);
+    await studio.close();
+  });
+});
+
+interface Clips {
+  semblante: { driver: { clip: { position: number; playing: boolean; seek(position: number): void } } };
+}
