@@ -15,7 +15,7 @@ namespace semblante {
 struct LidEdge {
   static constexpr std::size_t outer = 1;
   SurfacePoint middle;
-  std::array<SurfacePoint, 2> corners;  ///< inner, outer
+  std::array<SurfacePoint, 2> corners;                    ///< inner, outer
   std::array<std::vector<SurfaceVertexId>, 2> to_corner;  ///< shortest paths from the middle
   std::array<bool, 2> ends_at_corner{};                   ///< or at the vertex of its part that is nearest to it
 };

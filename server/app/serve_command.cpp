@@ -71,7 +71,8 @@ void declare_serve_options(CLI::App& app, ServeOptions& declared) {
       ->check(count);
   add("--max-speeches", options->max_speeches, "Maximum number of stored speeches", "MAX_SPEECHES")->check(count);
   add("--voice-program", options->voice_program,
-      "Program that speaks (server/voice/README.md); left out: semblante-voice-espeak beside this one, if it is there; none: no voice",
+      "Program that speaks (server/voice/README.md); left out: semblante-voice-espeak beside this one, if it is there; "
+      "none: no voice",
       "VOICE_PROGRAM");
   add("--max-streams", options->max_streams, "Maximum number of streams", "MAX_STREAMS")->check(count);
   add("--max-recordings", options->max_recordings, "Maximum number of stored recordings", "MAX_RECORDINGS")
