@@ -731,7 +731,7 @@ export interface paths {
         };
         /**
          * The voices that the voice program knows, and how well each language is said
-         * @description Without an installed voice: 501, `no-voice`; with one that has no names: 502, `voice-failed`.
+         * @description Without an installed voice: none. With one that has no names: 502, `voice-failed`.
          */
         get: operations["listVoices"];
         put?: never;
@@ -4722,7 +4722,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description They */
+            /** @description The voices */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -4732,7 +4732,6 @@ export interface operations {
                 };
             };
             429: components["responses"]["Problem"];
-            501: components["responses"]["Problem"];
             502: components["responses"]["Problem"];
             default: components["responses"]["Problem"];
         };

@@ -28,10 +28,15 @@ export function makeDriverChip({ driver, live, clip, recordings, scene, tab }: D
     return driver.source.value === 'clip' ? clip.value : null;
   };
   const chip = h('div', { class: 'driver', role: 'status' });
+  let drawn = '';
   const draw = (): void => {
     const status = live.status.value;
     chip.hidden = scene.performer.value === null || tab.value === 'points' || tab.value === 'fit';
     if (chip.hidden) return;
+    // The list of streams is read anew all the time; a button that is replaced under the pointer cannot be pressed.
+    const wanted = JSON.stringify([driver.source.value, status, live.following.value, live.demo?.id, shown()]);
+    if (wanted === drawn) return;
+    drawn = wanted;
     if (driver.source.value === 'stream' && status.kind !== 'off') {
       const words =
         status.kind === 'open'
