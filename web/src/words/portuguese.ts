@@ -498,6 +498,8 @@ export const portuguese = {
   '1 warning': '1 aviso',
   '1 note': '1 observação',
   '1 vertex': '1 vértice',
+  '1 cue': '1 entrada',
+  '{count} cues': '{count} entradas',
   '1 subscriber': '1 assistindo',
   '1 publisher': '1 publicando',
   'Done.': 'Pronto.',

@@ -247,7 +247,7 @@ function sizeOf(content: ClipFile): string {
     return t('{count} frames, {frameRate} a second', { count: formatCount(frames.length), frameRate });
   }
   const { cues, hasIdle } = content;
-  const count = `${formatCount(cues)} ${cues === 1 ? 'cue' : 'cues'}`;
+  const count = cues === 1 ? t('1 cue') : t('{count} cues', { count: formatCount(cues) });
   if (!hasIdle) return count;
   return cues > 0 ? t('{count}, idle life', { count }) : t('Idle life');
 }
