@@ -24,16 +24,16 @@ describe('animate', () => {
     const groups = page.locator('.fap-group:visible');
     const all = await groups.count();
     await page.locator('.fap-group[data-group="7"] summary').click();
-    await page.getByText('Head pitch').waitFor();
+    await page.locator('.fap-list').getByText('Head pitch').waitFor();
     const search = page.getByLabel('Search face parameters');
     await search.fill('left lid');
-    await page.getByText('Close upper left eyelid').waitFor();
+    await page.locator('.fap-list').getByText('Close upper left eyelid').waitFor();
     expect(await sliders.count()).toBe(2);
     expect(await groups.count()).toBe(1);
     await search.fill('no such thing');
     await page.getByText('No face parameter matches.').waitFor();
     await search.fill('');
-    await page.getByText('Head pitch').waitFor();
+    await page.locator('.fap-list').getByText('Head pitch').waitFor();
     expect(await groups.count()).toBe(all);
     // Groups that the search opened are closed again; a group that the user opened stays open.
     expect(await page.locator('.fap-group[open]').evaluateAll((open) => open.map((one) => (one as HTMLElement).dataset['group']))).toEqual(['7']);

@@ -208,7 +208,7 @@ describe('studio', () => {
     await director.page.getByRole('button', { name: 'Create' }).click();
     await director.page.locator('.stream', { hasText: 'Two pages' }).waitFor();
     await director.page.getByLabel('Stream to send to').selectOption({ label: 'Two pages' });
-    await director.page.getByRole('switch').check();
+    await director.page.getByRole('switch', { name: 'Publish my sliders' }).check();
     await director.page.getByText('Publishing: move a slider in Animate.').waitFor();
 
     const viewer = await StudioPage.open(browser, server.url);

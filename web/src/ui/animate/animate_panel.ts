@@ -16,6 +16,7 @@ import { FapSliders, fapsWithoutEffect } from './fap_sliders.ts';
 import { icon } from '../shared/icons.ts';
 import { messageOf } from '../shared/message_of.ts';
 import { capital } from '../shared/names.ts';
+import { rove } from '../shared/roving.ts';
 import { Slider } from '../shared/slider.ts';
 import { VisemeGrid } from './viseme_grid.ts';
 import { nameOf, t } from '../../words/words.ts';
@@ -88,6 +89,8 @@ export class AnimatePanel {
     );
     const act = (title: string, name: 'blink' | 'mirror', hint: string, action: () => void): HTMLElement =>
       h('button', { type: 'button', class: 'quiet', title: hint, on: { click: action } }, icon(name, 16), title);
+    const take = h('div', { class: 'row wrap quick-acts', role: 'toolbar', 'aria-label': t('Take this face along') }, ...options.exports);
+    rove(take, 'button');
     this.element = h(
       'div',
       { class: 'panel animate' },
@@ -99,7 +102,7 @@ export class AnimatePanel {
         h('span', { class: 'grow' }),
         this.resetAll,
       ),
-      h('div', { class: 'row wrap quick-acts', role: 'group', 'aria-label': t('Take this face along') }, ...options.exports),
+      take,
       h(
         'section',
         {},
