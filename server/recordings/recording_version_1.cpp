@@ -79,9 +79,10 @@ Status Version1Decoder::frames(std::span<const std::uint8_t> message, Frames& to
   to.frames.clear();
   std::uint64_t time = 0;
   for (std::uint64_t i = 0; i < count; ++i) {
-    time += reader.varint();
+    const std::uint64_t later = reader.varint();
+    if (later > max_frame_time - time) return malformed("a frame is more than a day after its message");
+    time += later;
     if (auto status = read_state(reader, last_); !status) return status;
-    if (time > max_frame_time) return malformed("a frame is more than a day after its message");
     to.frames.push_back({static_cast<std::uint32_t>(time), last_});
   }
   return Unit{};

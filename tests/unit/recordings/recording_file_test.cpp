@@ -413,12 +413,20 @@ TEST(RecordingFile, ImpossibleMessagesOfVersion1_AreRefused) {
                                                        {3, 1, 0, 4, 2, 0xFF, 0xFF, 0x03}};  // one of -32768
   for (const auto& each : keys) EXPECT_FALSE(read_frames_chunk(version_1_chunk({two[0]}, {each}))) << hex(each);
   const std::vector<std::vector<std::uint8_t>> batches = {
-      {4, 2, 0, 0},                             // none
-      {4, 2, 0, 0x81, 0x08},                    // 1025
+      {4, 2, 0, 0},                             // no frames
+      {4, 2, 0, 0x81, 0x08},                    // 1025 frames
       {4, 2, 0, 1, 0x81, 0xB8, 0x99, 0x29, 0},  // a day and 1 ms later
-      {3, 2, 0, 0}};                            // a keyframe
+      {3, 2, 0, 0}};                            // a keyframe in place of frames
   for (const auto& each : batches) EXPECT_FALSE(read_frames_chunk(version_1_chunk(two, {key, each}))) << hex(each);
   EXPECT_TRUE(read_frames_chunk(version_1_chunk(two, {key, {4, 2, 0, 1, 40, 0}})));
+
+  // The second time is 2^64 - 1 ms after the first: a sum without a check would be 1 ms before it.
+  const std::vector<RecordingFrame> three = {{1, 0, {}}, {2, 5, {}}, {3, 4, {}}};
+  const std::vector<std::uint8_t> back = {4,    2,    0,    2,    5,    0,    0xFF, 0xFF, 0xFF,
+                                          0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0x01, 0};
+  const auto read = read_frames_chunk(version_1_chunk(three, {key, back}));
+  ASSERT_FALSE(read);
+  EXPECT_EQ(read.error().message, "a frame is more than a day after its message");
 }
 
 }  // namespace
