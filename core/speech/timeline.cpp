@@ -1,4 +1,3 @@
-#include <array>
 #include <cmath>
 
 #include <nlohmann/json.hpp>
@@ -12,8 +11,6 @@ namespace semblante {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr std::array stress_names = {"none", "primary", "secondary"};
 
 double rounded(double ms) { return std::round(ms * 10.0) / 10.0; }
 

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace semblante {
@@ -12,6 +14,7 @@ inline constexpr double max_speech_seconds = 1'200.0;
 inline constexpr std::uint32_t least_sample_rate = 8'000, most_sample_rate = 48'000;
 
 enum class Stress : std::uint8_t { none, primary, secondary };
+inline constexpr std::array<std::string_view, 3> stress_names = {"none", "primary", "secondary"};
 
 /// A sound from `time` to the next one.
 struct SpokenPhoneme {

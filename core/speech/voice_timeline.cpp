@@ -357,14 +357,14 @@ void read_rhubarb(std::string_view file, Builder& builder) {
 
 void read_semblante(std::string_view file, Builder& builder) {
   read_object(file, builder, [&](const JsonCursor& root) {
-    constexpr std::array<std::string_view, 3> stresses = {"none", "primary", "secondary"};
     for (const JsonCursor& phoneme : root.member("phonemes").elements(1, max_timeline_events)) {
       const std::string stress = phoneme.text_or("stress", "none");
-      const auto* const at = std::find(stresses.begin(), stresses.end(), stress);
-      if (at == stresses.end()) phoneme.fail(ErrorCode::out_of_range, "the stress must be none, primary or secondary");
+      const auto* const at = std::find(stress_names.begin(), stress_names.end(), stress);
+      if (at == stress_names.end())
+        phoneme.fail(ErrorCode::out_of_range, "the stress must be none, primary or secondary");
       SpokenPhoneme sound{phoneme.member("time").number(0.0, most_ms),
                           printable(phoneme.member("ipa").text(most_symbol_bytes)),
-                          static_cast<Stress>(at - stresses.begin())};
+                          static_cast<Stress>(at - stress_names.begin())};
       const double end = phoneme.member("end").number(0.0, most_ms);
       if (root.failed() || builder.failed()) return;
       builder.stressed_sound(std::move(sound), end, phoneme.pointer());
