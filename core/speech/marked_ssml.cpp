@@ -67,7 +67,7 @@ class SsmlReader {
     ++said_;
   }
 
-  /// The five of XML and numbers; anything else says itself.
+  /// A reference to one of XML's five entities says its character; the '&' of anything else says itself.
   void take_reference(std::string_view rest) {
     constexpr std::array<std::pair<std::string_view, std::string_view>, 5> known = {
         {{"&amp;", "&"}, {"&lt;", "<"}, {"&gt;", ">"}, {"&quot;", "\""}, {"&apos;", "'"}}};

@@ -14,7 +14,7 @@ namespace semblante {
 struct MarkedSsml {
   std::string document;  ///< without emotions
   MarkedText said;       ///< the text without tags, and the emotions over it
-  /// Of each character of the document, and of its end: how many characters of the text come before it.
+  /// For each character of the document, and for its end: the number of characters of the text before it.
   std::vector<std::size_t> places;
 };
 

@@ -8,9 +8,8 @@ enum class ThreadRank {
   live,        ///< connections of streams: the usual share, but they interrupt nobody
   requests,    ///< requests and their answers
   jobs,        ///< worker processes
-  handshakes,  ///< of TLS, which strangers may begin by the thousand; in parallel with a stream's batch, a higher rank
-               ///< would give them a tenth of its processor, this one gives a hundredth; their
-               ///< turns are short as well
+  handshakes,  ///< of TLS, which strangers may begin by the thousand; they get a hundredth of
+               ///< the processor beside a stream's batch, in short turns (nice 10 would give them a tenth)
 };
 
 /// For the calling thread, and for the threads and processes that it starts later; once per thread, as it is relative

@@ -32,8 +32,8 @@ TEST(ShortestPath, IsAsLongAsTheDistanceAndGoesAlongEdges) {
   }
 }
 
-/// By a search of the whole part: from `to` back to the predecessor with the least vertex number of all that are on a
-/// shortest path.
+/// The expected path, from the distances of all vertices of the part: it is followed backwards from `to`; of several
+/// predecessors on shortest paths the one with the least vertex number is taken.
 std::vector<SurfaceVertexId> path_by_distances(const Surface& surface, SurfaceVertexId from, SurfaceVertexId to) {
   EdgePathSearch search(surface);
   const std::span<const double> distances = search.from(from);
