@@ -18,6 +18,9 @@ class SsmlReader {
   explicit SsmlReader(std::string_view text) : text_(text) {}
 
   Result<MarkedSsml> read() {
+    // Bytes on both sides of a tag could make a character together.
+    if (at_ = utf8_end(text_); at_ != text_.size()) return fail("is not UTF-8");
+    at_ = 0;
     while (at_ < text_.size()) {
       const std::string_view rest = text_.substr(at_);
       if (rest.starts_with("<!--")) {

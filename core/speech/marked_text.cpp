@@ -76,6 +76,13 @@ bool is_emotion_tag(std::string_view text) {
   return text.starts_with(tag) && !(text.size() > tag.size() && is_letter(text[tag.size()]));
 }
 
+/// Bytes on both sides of a mark could make a character together, and be counted as two.
+std::optional<Error> not_utf8(std::string_view text) {
+  const std::size_t end = utf8_end(text);
+  if (end == text.size()) return std::nullopt;
+  return Error{ErrorCode::malformed, "text", "is not UTF-8 (byte " + std::to_string(end) + ")"};
+}
+
 class Reader {
  public:
   explicit Reader(std::string_view text) : text_(text) {}
@@ -272,9 +279,15 @@ std::vector<std::string> emotion_names() {
   return names;
 }
 
-Result<MarkedText> read_marked_text(std::string_view text) { return Reader(text).read(); }
+Result<MarkedText> read_marked_text(std::string_view text) {
+  if (auto fault = not_utf8(text)) return *std::move(fault);
+  return Reader(text).read();
+}
 
-Result<TextParts> first_part(std::string_view text) { return Reader(text).split(); }
+Result<TextParts> first_part(std::string_view text) {
+  if (auto fault = not_utf8(text)) return *std::move(fault);
+  return Reader(text).split();
+}
 
 Prosody prosody_of(const NamedEmotion& emotion) {
   const Prosody& whole = prosodies[emotion.expression];

@@ -31,7 +31,8 @@ std::vector<std::string> emotion_names();
 /// Takes the marks out of a text: spans "[joy]...[/joy]", with an intensity "[joy 0.5]...[/joy]", or
 /// <emotion name="joy" intensity="0.5">...</emotion>, which nest; emoticons (":)", ":-(") and emoji. A smiley colours
 /// the sentence that it stands in, or ends; before the first word, the first one. Brackets with other words in them are
-/// text. Errors name the byte: a span that is not closed, or closed and not open; an intensity that is not 0 to 1.
+/// text. Errors name the byte: a span that is not closed, or closed and not open; an intensity that is not 0 to 1; what
+/// is not UTF-8.
 Result<MarkedText> read_marked_text(std::string_view text);
 
 /// A text in two, both with their marks; spans that go on are closed in the first and opened again in the rest.

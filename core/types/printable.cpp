@@ -25,6 +25,16 @@ std::size_t utf8_length(std::string_view text) {
 
 std::size_t utf8_step(std::string_view text) { return std::max<std::size_t>(1, utf8_length(text)); }
 
+std::size_t utf8_end(std::string_view text) {
+  std::size_t at = 0;
+  while (at < text.size()) {
+    const std::size_t length = utf8_length(text.substr(at));
+    if (length == 0) break;
+    at += length;
+  }
+  return at;
+}
+
 std::string printable(std::string_view name) {
   constexpr std::size_t max_bytes = 200;
   std::string text;

@@ -12,6 +12,9 @@ std::size_t utf8_length(std::string_view text);
 /// Number of bytes from one character to the next: that of the first one of `text`, or 1 where it is not valid UTF-8.
 std::size_t utf8_step(std::string_view text);
 
+/// The byte at which `text` stops being valid UTF-8; its size if all of it is.
+std::size_t utf8_end(std::string_view text);
+
 /// Makes an untrusted name safe for output: valid UTF-8 (other bytes become '?'), no control characters, at most 200
 /// bytes.
 std::string printable(std::string_view name);

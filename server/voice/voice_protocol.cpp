@@ -74,14 +74,13 @@ Status check_text(std::string_view text) {
   if (text.empty()) return Error{ErrorCode::empty, "text", "there is nothing to say"};
   if (text.size() > max_text_bytes)
     return Error{ErrorCode::too_large, "text", "is longer than " + std::to_string(max_text_bytes) + " bytes"};
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t length = utf8_length(text.substr(at));
-    if (length == 0) return Error{ErrorCode::malformed, "text", "is not UTF-8 at byte " + std::to_string(at)};
+  if (const std::size_t end = utf8_end(text); end != text.size())
+    return Error{ErrorCode::malformed, "text", "is not UTF-8 at byte " + std::to_string(end)};
+  for (std::size_t at = 0; at < text.size(); at += utf8_step(text.substr(at))) {
     const auto first = static_cast<unsigned char>(text[at]);
     const bool control = (first < 0x20 && text[at] != '\n' && text[at] != '\t') || first == 0x7F ||
                          (first == 0xC2 && static_cast<unsigned char>(text[at + 1]) < 0xA0);
     if (control) return Error{ErrorCode::malformed, "text", "has a control character at byte " + std::to_string(at)};
-    at += length;
   }
   return Unit{};
 }

@@ -69,6 +69,7 @@ TEST(MarkedSsml, WhatIsWrong_IsNamedWithItsByte) {
                                       {"<prosody emotion='x'>a</prosody>", "the emotion of <prosody>"},
                                       {"<emotion name='joy'/>", "nothing in it"},
                                       {"a < b", "no name"},
+                                      {"<speak>\xF2\x8B<p>\x8B\x8B</p></speak>", "not UTF-8 (byte 7)"},
                                       {"<!-- a", "comment"}}) {
     const auto read = read_marked_ssml(text);
     ASSERT_FALSE(read.ok()) << text;

@@ -61,6 +61,7 @@ TEST(MarkedText, BrokenMarks_AreErrorsWithTheirPlace) {
         "<emotion name='joy' intensity='x'>a</emotion>", "<emotion name='joy'/>a",
         "<emotion name='joy' id='x'>a</emotion>", "<emotion", "<emotion name='joy"})
     EXPECT_FALSE(read_marked_text(text).ok()) << text;
+  EXPECT_NE(read_marked_text("\xC3[joy]\xA9[/joy]").error().message.find("not UTF-8 (byte 0)"), std::string::npos);
   EXPECT_NE(read_marked_text("ab[/joy]").error().message.find("byte 2"), std::string::npos);
 }
 
