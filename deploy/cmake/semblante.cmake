@@ -33,12 +33,13 @@ if(SEMBLANTE_SANITIZE)
   target_link_options(semblante_flags INTERFACE -fsanitize=${SEMBLANTE_SANITIZE})
 endif()
 # Targets with Asio coroutines say so by this property. clang-14 cannot emit a coroutine with UndefinedBehaviorSanitizer's
-# check of function pointers; ThreadSanitizer does not see fences, which Asio has beside its mutexes.
+# check of function pointers; ThreadSanitizer does not see fences, which Asio has beside its mutexes and in its counters of
+# references: Boost's counters have none.
 set(coroutines $<BOOL:$<TARGET_PROPERTY:SEMBLANTE_COROUTINES>>)
 if(SEMBLANTE_SANITIZE MATCHES undefined AND CMAKE_CXX_COMPILER_ID STREQUAL Clang)
   target_compile_options(semblante_flags INTERFACE $<${coroutines}:-fno-sanitize=function>)
 elseif(SEMBLANTE_SANITIZE STREQUAL thread)
-  target_compile_definitions(semblante_flags INTERFACE $<${coroutines}:BOOST_ASIO_DISABLE_FENCED_BLOCK>)
+  target_compile_definitions(semblante_flags INTERFACE "$<${coroutines}:BOOST_ASIO_DISABLE_FENCED_BLOCK;BOOST_ASIO_DISABLE_STD_ATOMIC>")
 endif()
 if(SEMBLANTE_FUZZ)
   # Coverage for the code under test; the driver is linked by the fuzz targets alone.

@@ -137,7 +137,8 @@ TEST_F(Speeches, WhatIsWrongIsNamed) {
     expect_problem(say(body), 422, "invalid-field", "/text");
   }
   // The voice says what it cannot serve.
-  expect_problem(say({{"text", "<speak>a</speak>"}, {"ssml", true}, {"language", "en"}}), 422, "invalid-field", "/text");
+  expect_problem(say({{"text", "<speak>a</speak>"}, {"ssml", true}, {"language", "en"}}), 422, "invalid-field",
+                 "/text");
   expect_problem(ask("POST", "/v1/speeches", "{\"text\":\"\xff\",\"language\":\"en\"}", json_type), 400,
                  "malformed-request");
   expect_problem(ask("POST", "/v1/speeches", std::string(std::size_t{2} << 20U, ' '), json_type), 413,

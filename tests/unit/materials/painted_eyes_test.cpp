@@ -239,11 +239,9 @@ TEST(PaintedEyes, ACorneaOverAnIris_HasARoundWindow) {
   // The shell is 13.2 wide, the iris 6: the texture shows all of the shell.
   for (const auto& [radius, is_clear] : {std::pair{0.0, true}, {5.7, true}, {6.3, false}, {12.0, false}}) {
     for (int k = 0; k < 32; ++k) {
-      const auto at = [&](double wave) {
-        return static_cast<int>((0.5 + 0.5 * radius / (1.02 * 13.2) * wave) * width);
-      };
-      const int x = at(std::cos(0.2 * k));
-      const int y = at(std::sin(0.2 * k));
+      const double reach = 0.5 * radius / (1.02 * 13.2);
+      const int x = static_cast<int>((0.5 + reach * std::cos(0.2 * k)) * width);
+      const int y = static_cast<int>((0.5 + reach * std::sin(0.2 * k)) * width);
       EXPECT_EQ(rgba.get()[4 * (y * width + x) + 3] < 128, is_clear) << radius;
     }
   }
