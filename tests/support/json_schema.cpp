@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <mutex>
 #include <regex>
 #include <set>
@@ -20,8 +21,10 @@ using nlohmann::json;
 /// all threads share without a lock.
 bool is_found(const std::string& expression, const std::string& text) {
   static std::mutex mutex;
+  // Answers have hundreds of strings, and to compile an expression takes longer than everything else of a check.
+  static std::map<std::string, std::regex> compiled;
   const std::lock_guard lock(mutex);
-  return std::regex_search(text, std::regex(expression));
+  return std::regex_search(text, compiled.try_emplace(expression, expression).first->second);
 }
 
 constexpr auto known_keywords = std::to_array<std::string_view>({"$ref",

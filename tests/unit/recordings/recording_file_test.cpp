@@ -421,7 +421,7 @@ TEST(RecordingFile, ImpossibleMessagesOfVersion1_AreRefused) {
   EXPECT_TRUE(read_frames_chunk(version_1_chunk(two, {key, {4, 2, 0, 1, 40, 0}})));
 
   // The second time is 2^64 - 1 ms after the first: a sum without a check would be 1 ms before it.
-  const std::vector<RecordingFrame> three = {{1, 0, {}}, {2, 5, {}}, {3, 4, {}}};
+  const std::vector<RecordingFrame> three = {{1, 0, {}}, {2, 5, {}}, {3, 5, {}}};
   const std::vector<std::uint8_t> back = {4,    2,    0,    2,    5,    0,    0xFF, 0xFF, 0xFF,
                                           0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0x01, 0};
   const auto read = read_frames_chunk(version_1_chunk(three, {key, back}));
