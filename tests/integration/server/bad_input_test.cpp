@@ -216,8 +216,9 @@ std::uint64_t peak_memory(pid_t pid) {
 }
 
 Reply chunked(int port, const std::string& chunks) {
-  return parse_reply(
-      raw_exchange(port, "GET /version HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n" + chunks));
+  return parse_reply(raw_exchange(
+      port,
+      "GET /version HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\nTransfer-Encoding: chunked\r\n\r\n" + chunks));
 }
 
 void expect_slug(const Reply& reply, int status, const std::string& slug) {
