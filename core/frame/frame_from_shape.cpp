@@ -29,8 +29,7 @@ class ShapeGuess {
     if (guess_.axes_sure) {
       guess_.axes = {*up_, *front_};
     } else if (guess_.axes_sure = stands_by_rule(); !guess_.axes_sure) {
-      guess_.reasons.emplace_back(
-          "The axes of the head are uncertain without feature points: +Y is assumed to be up, and +Z the front");
+      assume_axes();
     }
     guess_unit();
     return std::move(guess_);
@@ -54,6 +53,20 @@ class ShapeGuess {
     if (!is_gltf() || (up_ && *up_ != Direction::plus_y)) return false;
     say("glTF models stand along +Y and face +Z");
     return true;
+  }
+
+  /// MPEG-4's axes, unless what was seen rules them out. A file with Z up looks along -Y (Blender) or, if Y is across,
+  /// along +X (game engines).
+  void assume_axes() {
+    if (up_is_of_neck_) up_.reset();  // alone it may be the rim of a mask
+    if (up_ || across_ == 1 || across_ == 2) {
+      if (!up_) up_ = across_ == 1 ? Direction::plus_z : Direction::plus_y;
+      if (across_ && !front_) find_front();
+      const int axis = across_ ? 3 - *across_ - axis_of(*up_) : axis_of(*up_) == 2 ? 1 : 2;
+      guess_.axes = {*up_, front_.value_or(direction_along(axis, axis == 1 ? -1.0 : 1.0))};
+    }
+    say("The axes of the head are uncertain without feature points: " + name(guess_.axes.up) +
+        " is assumed to be up, and " + name(guess_.axes.front) + " the front");
   }
 
   void find_across() {
@@ -81,7 +94,13 @@ class ShapeGuess {
     }
     const auto neck = find_neck(model_, surface_, skin_id());
     if (!neck || neck->axis == *across_) return;
+    if (eyes_) {
+      // A head that ends under its hat is open at the top, and its eyes are near that end.
+      const double end = neck->sign > 0.0 ? skin().high[neck->axis] : skin().low[neck->axis];
+      if (std::abs(end - eyes_->middle[neck->axis]) < 0.4 * skin().extent()[neck->axis]) return;
+    }
     up_ = direction_along(neck->axis, -neck->sign);
+    up_is_of_neck_ = true;
     say("The largest part ends open and flat at its " + name(direction_along(neck->axis, neck->sign)) +
         " end, as a neck does");
   }
@@ -160,6 +179,7 @@ class ShapeGuess {
   std::optional<EyePair> eyes_;
   std::optional<int> across_;
   std::optional<Direction> up_;
+  bool up_is_of_neck_ = false;
   std::optional<Direction> front_;
   ModelFrame guess_;
 };

@@ -46,7 +46,8 @@ struct PlacedPoint {
 
 /// Guesses from the file only: left and right by the plane of symmetry, the other axes by eyes, mouth and neck, if
 /// parts show them; the unit by the size of a head, a bust or a body. `model` is in the file's axes, `surface` its
-/// surface. Uncertain axes are set to MPEG-4's, which are also those of glTF and of most files.
+/// surface. Uncertain axes are set to MPEG-4's, which are also those of glTF and of most files, unless what was
+/// seen rules them out.
 ModelFrame guess_frame(const Model& model, const Surface& surface);
 
 /// Guesses from marked points, which are more reliable: left from pairs, up from eyes above mouth above chin, front

@@ -187,8 +187,15 @@ std::optional<NeckOpening> find_neck(const Model& model, const Surface& surface,
     if (extent[axis] > 0.35 * across || across < 0.25 * std::min(size[(axis + 1) % 3], size[(axis + 2) % 3])) continue;
     const double at_low = longest->low[axis] - low[axis];
     const double at_high = high[axis] - longest->high[axis];
-    if (at_low < 0.02 * size[axis]) return NeckOpening{axis, -1.0};
-    if (at_high < 0.02 * size[axis]) return NeckOpening{axis, 1.0};
+    if (std::min(at_low, at_high) >= 0.02 * size[axis]) continue;
+    const double sign = at_low < at_high ? -1.0 : 1.0;
+    // Open at both ends, as under a hat: which of them is the neck is not seen.
+    const auto is_other_end = [&](const Loop& loop) {
+      return loop.length > 0.5 * longest->length &&
+             (sign < 0.0 ? high[axis] - loop.high[axis] : loop.low[axis] - low[axis]) < 0.1 * size[axis];
+    };
+    if (std::any_of(loops.begin(), loops.end(), is_other_end)) return std::nullopt;
+    return NeckOpening{axis, sign};
   }
   return std::nullopt;
 }

@@ -57,7 +57,9 @@ std::string stance_in_words(const Axes& axes) {
 }
 
 std::vector<std::string> stance_warnings(const ModelFrame& frame) {
-  if (frame.axes != Axes{}) return {"the head " + stance_in_words(frame.axes) + "; it is turned upright"};
+  if (frame.axes != Axes{})
+    return {"the head " + stance_in_words(frame.axes) + (frame.axes_sure ? "" : ", as far as its shape shows") +
+            "; it is turned upright"};
   if (!frame.axes_sure) return {"the axes of the head are uncertain; it keeps the axes of its file"};
   return {};
 }
