@@ -109,6 +109,7 @@ TEST(TurnWithHead, EndsAtTheBorder_OfANeckCutAskew) {
   std::erase_if(figure.model.triangles, [&](const Triangle& t) {
     return std::any_of(t.begin(), t.end(), [&](std::uint32_t v) { return v / slices > last_ring(v % slices); });
   });
+  figure.model.primitives[0].triangle_count = static_cast<std::uint32_t>(figure.model.triangles.size());
   figure.find();
   ASSERT_FALSE(figure.turn.empty());
   for (std::uint32_t slice = 0; slice < slices; ++slice) {
