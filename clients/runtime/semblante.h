@@ -52,7 +52,7 @@
 extern "C" {
 #endif
 
-#define SEMBLANTE_SDK_VERSION 0x000100u /* 0.1.0: 8 bits each */
+#define SEMBLANTE_SDK_VERSION 0x000200u /* 0.2.0: 8 bits each */
 
 /* ---- results and errors --------------------------------------------------------------------------------------- */
 

@@ -23,7 +23,13 @@ class Version(unittest.TestCase):
             self.assertIn(f'semblante_build_info{{version="{PROJECT}"}} 1', support.get(server.url + "/metrics")[2].decode())
 
     def test_the_same_elsewhere(self):
-        self.assertEqual(json.loads((TOP / "web/package.json").read_text())["version"], PROJECT)
+        for package in ("web/package.json", "web/package-lock.json", "clients/js/package.json"):
+            self.assertEqual(json.loads((TOP / package).read_text())["version"], PROJECT, package)
+        for file in ("clients/python/pyproject.toml", "clients/python/semblante/__init__.py"):
+            self.assertIn(f'version{"__" if file.endswith("py") else ""} = "{PROJECT}"', (TOP / file).read_text(), file)
+        minor_version = PROJECT.rpartition(".")[0]
+        self.assertIn(f"find_package(semblante {minor_version} REQUIRED)", (TOP / "clients/runtime/README.md").read_text())
+        self.assertIn(f"set(VERSION {minor_version} ", (TOP / "tests/integration/sdk/consumer/CMakeLists.txt").read_text())
         major, minor, patch = (int(part) for part in PROJECT.split("."))
         sdk = re.search(r"SEMBLANTE_SDK_VERSION (0x\w+)u", (TOP / "clients/runtime/semblante.h").read_text()).group(1)
         self.assertEqual(int(sdk, 16), major << 16 | minor << 8 | patch)

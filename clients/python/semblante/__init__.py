@@ -20,7 +20,7 @@ from .server import Connection, fetch_head, follow, now
 from .stream import SUBPROTOCOL, EventType, State, Stream
 from .websocket import Closed, WebSocket, WebSocketError
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 
 __all__ = [
     "ARKIT_NAMES", "OCULUS_NAMES", "SUBPROTOCOL", "Closed", "Connection", "EventType", "Frame", "Head", "Performance",

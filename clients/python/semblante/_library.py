@@ -10,7 +10,7 @@ from ctypes import POINTER, c_char, c_char_p, c_double, c_float, c_size_t, c_uin
 
 FP_COUNT = 84
 FAP_COUNT = 68
-VERSION = 0x000100  # SEMBLANTE_SDK_VERSION that the declarations were written for
+VERSION = 0x000200  # SEMBLANTE_SDK_VERSION that the declarations were written for
 
 
 def _find():

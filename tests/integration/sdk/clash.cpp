@@ -21,6 +21,6 @@ int main() {
   semblante_stream_destroy(stream);
   std::vector<std::string> words = semblante::FrameDecoder().words;
   words.push_back(semblante::read_rig());
-  std::printf("%u %u %d\n", unsigned(words.size()), unsigned(semblante_sdk_version()), semblante_deform_groups_plain());
+  std::printf("%u %d\n", unsigned(words.size()), semblante_deform_groups_plain());
   return semblante_sdk_version() == SEMBLANTE_SDK_VERSION ? 0 : 1;
 }
