@@ -12,6 +12,7 @@ std::string cpp_type(const Json& field) {
   if (type == "real") return "double";
   if (type == "bool") return "bool";
   if (type == "text") return "std::string";
+  if (type == "bytes") return "std::vector<std::uint8_t>";
   if (type == "reals") return "std::vector<double>";
   if (type == "enum") return text(field, "enum");
   if (type == "optional") return "std::optional<" + text(field, "struct") + ">";
@@ -49,14 +50,15 @@ std::string visit(const Json& field) {
            presence + ");";
   }
   if (type == "bool") return "v.boolean(" + head + ", " + presence + ");";
-  if (type == "text") return "v.text(" + head + ", " + field.at("max").dump() + ", " + presence + ");";
+  if (type == "text" || type == "bytes")
+    return "v." + type + "(" + head + ", " + field.at("max").dump() + ", " + presence + ");";
   if (type == "reals") {
     return "v.reals(" + head + ", " + field.at("lengths").at(1).dump() + ", " + bound(field, "min", "-max_real") +
            ", " + bound(field, "max", "max_real") + ", " + presence + ");";
   }
   if (type == "enum")
     return "v.enumeration(" + head + ", " + snake_case(text(field, "enum")) + "_names, " + presence + ");";
-  if (type == "optional") return "v.optional(" + head + ");";
+  if (type == "optional") return "v.optional(" + head + ", " + presence + ");";
   if (type == "optional_real") {
     return "v.optional_real(" + head + ", " + bound(field, "min", "-max_real") + ", " +
            bound(field, "max", "max_real") + ");";

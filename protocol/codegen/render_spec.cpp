@@ -23,6 +23,7 @@ std::string value_form(const Json& field) {
   if (type == "optional_real") return "u8, 0 or 1; if 1, an f64" + bounds(field);
   if (type == "bool") return "u8, 0 or 1";
   if (type == "text") return "text of at most " + field.at("max").dump() + " bytes";
+  if (type == "bytes") return "varint number of bytes, at most " + field.at("max").dump() + ", then the bytes";
   if (type == "reals") {
     return "varint count (0 or " + field.at("lengths").at(1).dump() + "), then that many f64, " +
            field.at("min").dump() + " to " + field.at("max").dump();

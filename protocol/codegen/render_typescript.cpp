@@ -11,6 +11,7 @@ std::string ts_type(const Json& field) {
   if (type == "uint" || type == "real") return "number";
   if (type == "bool") return "boolean";
   if (type == "text") return "string";
+  if (type == "bytes") return "Uint8Array";
   if (type == "reals") return "number[]";
   if (type == "enum") return text(field, "enum");
   if (type == "optional") return text(field, "struct") + " | null";
@@ -25,6 +26,7 @@ std::string fallback(const Json& field, const Json& schema) {
   if (type == "uint" || type == "real") return field.value("default", Json(0)).dump();
   if (type == "bool") return "false";
   if (type == "text") return "''";
+  if (type == "bytes") return "new Uint8Array()";
   if (type == "reals") return "[]";
   if (type == "optional" || type == "optional_real") return "null";
   if (type == "enum") {
@@ -38,7 +40,7 @@ std::string fallback(const Json& field, const Json& schema) {
 std::string descriptor(const Json& field, const Json& schema) {
   const std::string type = text(field, "type");
   std::string out = "{ name: '" + text(field, "name") + "', type: '" + type + "'";
-  if (type == "uint" || type == "text") out += ", max: " + field.at("max").dump();
+  if (type == "uint" || type == "text" || type == "bytes") out += ", max: " + field.at("max").dump();
   if (type == "real" || type == "reals" || type == "optional_real") {
     out += ", min: " + (field.contains("min") ? field.at("min").dump() : "-1.7976931348623157e308");
     out += ", max: " + (field.contains("max") ? field.at("max").dump() : "1.7976931348623157e308");
@@ -107,9 +109,10 @@ export type Field =
   | { name: string; type: 'real'; min: number; max: number; required: boolean; fallback: number }
   | { name: string; type: 'bool'; appended?: true; required: boolean; fallback: boolean }
   | { name: string; type: 'text'; max: number; required: boolean; fallback: string }
+  | { name: string; type: 'bytes'; max: number; required: boolean; fallback: Uint8Array }
   | { name: string; type: 'reals'; min: number; max: number; length: number; required: boolean; fallback: number[] }
   | { name: string; type: 'enum'; values: EnumValues; appended?: true; required: boolean; fallback: string }
-  | { name: string; type: 'optional'; fields: readonly Field[]; required: boolean; fallback: null }
+  | { name: string; type: 'optional'; fields: readonly Field[]; appended?: true; required: boolean; fallback: null }
   | { name: string; type: 'optional_real'; min: number; max: number; appended: true; required: boolean; fallback: null }
   | { name: string; type: 'state' }
   | { name: string; type: 'frames' };

@@ -14,7 +14,7 @@ using Json = nlohmann::ordered_json;
 
 inline std::string text(const Json& node, const char* key) { return node.value(key, std::string()); }
 inline bool required(const Json& field) { return field.value("required", false); }
-/// A field that was not there at first: every `optional_real`, and an enumeration or a bool marked as such.
+/// A field that was not there at first: every `optional_real`, and others marked as such.
 inline bool appended(const Json& field) {
   return text(field, "type") == "optional_real" || field.value("appended", false);
 }

@@ -5,6 +5,7 @@
 
 #include "protocol/cpp/byte_io.h"
 #include "protocol/cpp/frame_codec.h"
+#include "protocol/cpp/opus_packet.h"
 #include "protocol/cpp/packed_codec.h"
 #include "protocol/cpp/utf8.h"
 
@@ -41,11 +42,8 @@ class BinaryFieldReader {
   }
   void text(const char* name, std::string& value, std::size_t max, Presence) {
     if (error_) return;
-    const std::uint64_t size = in_.varint();
-    if (ended(name)) return;
-    if (size > max) return fail(ErrorCode::too_large, name, "must not exceed " + std::to_string(max) + " bytes");
-    const auto bytes = in_.take(size);
-    if (ended(name)) return;
+    const auto bytes = counted(name, max);
+    if (error_) return;
     if (!is_utf8(bytes)) return fail(ErrorCode::malformed, name, "must be UTF-8");
     value.assign(bytes.begin(), bytes.end());
   }
@@ -68,9 +66,14 @@ class BinaryFieldReader {
     if (read >= names.names.size() && !names.open) return fail(ErrorCode::out_of_range, name, "not a known value");
     value = static_cast<E>(read < names.names.size() ? read : 0);
   }
+  void bytes(const char* name, std::vector<std::uint8_t>& value, std::size_t max, Presence) {
+    if (error_) return;
+    const auto bytes = counted(name, max);
+    value.assign(bytes.begin(), bytes.end());
+  }
   template <class T>
-  void optional(const char* name, std::optional<T>& value) {
-    if (!flag(name)) return;
+  void optional(const char* name, std::optional<T>& value, Presence presence) {
+    if (error_ || ends_before(presence) || !flag(name)) return;
     const std::string outer = prefix_;
     prefix_ = pointer(name);
     visit_fields(value.emplace(), *this);
@@ -82,6 +85,17 @@ class BinaryFieldReader {
   }
 
  private:
+  /// A number of bytes and that many bytes; empty after an error.
+  std::span<const std::uint8_t> counted(const char* name, std::size_t max) {
+    const std::uint64_t size = in_.varint();
+    if (ended(name)) return {};
+    if (size > max) {
+      fail(ErrorCode::too_large, name, "must not exceed " + std::to_string(max) + " bytes");
+      return {};
+    }
+    const auto bytes = in_.take(size);
+    return ended(name) ? std::span<const std::uint8_t>() : bytes;
+  }
   /// Whether the message of a writer of an earlier version ends before this appended field.
   [[nodiscard]] bool ends_before(Presence presence) const {
     return presence == Presence::appended && in_.remaining() == 0;
@@ -112,6 +126,9 @@ Result<Message> read_message(std::span<const std::uint8_t> body) {
   M message;
   visit_fields(message, reader);
   if (reader.error()) return *reader.error();
+  if constexpr (std::is_same_v<M, SoundPacket>) {
+    if (auto status = check_sound(message); !status) return std::move(status).error();
+  }
   return Message(std::move(message));  // bytes after the last field belong to a later version
 }
 

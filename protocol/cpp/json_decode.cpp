@@ -1,12 +1,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/json/base64.h"
 #include "core/json/json_cursor.h"
 #include "core/json/json_tree.h"
 #include "protocol/cpp/face_frame.h"
 #include "protocol/cpp/fap_number.h"
 #include "protocol/cpp/json_bridges.h"
 #include "protocol/cpp/json_codec.h"
+#include "protocol/cpp/opus_packet.h"
 
 namespace semblante {
 namespace {
@@ -144,8 +146,16 @@ class JsonFieldReader {
     }
     value = static_cast<E>(found == names.names.end() ? 0 : found - names.names.begin());
   }
+  void bytes(const char* name, std::vector<std::uint8_t>& value, std::size_t max, Presence presence) {
+    const auto at = find(name, presence);
+    if (!at) return;
+    auto bytes = from_base64(at->text((max + 2) / 3 * 4));
+    if (!bytes) return at->fail(ErrorCode::malformed, "must be base64");
+    if (bytes->size() > max) return at->fail(ErrorCode::too_large, "must not exceed " + std::to_string(max) + " bytes");
+    value = *std::move(bytes);
+  }
   template <class T>
-  void optional(const char* name, std::optional<T>& value) {
+  void optional(const char* name, std::optional<T>& value, Presence) {
     const auto at = at_.optional_member(name);
     if (!at || at->is_null()) return;
     JsonFieldReader reader(*at, steps_);
@@ -194,6 +204,9 @@ Result<Message> decode_json(std::string_view text, const QuantizerSteps& steps) 
   JsonCursor::Report report;
   Message message = read_by_name(JsonCursor(*tree, report), steps, static_cast<const Message*>(nullptr));
   if (report) return *report;
+  if (const auto* sound = std::get_if<SoundPacket>(&message)) {
+    if (auto status = check_sound(*sound); !status) return std::move(status).error();
+  }
   return message;
 }
 

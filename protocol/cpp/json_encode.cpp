@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/json/base64.h"
 #include "protocol/cpp/face_frame.h"
 #include "protocol/cpp/json_codec.h"
 #include "protocol/cpp/json_number.h"
@@ -64,8 +65,12 @@ class JsonFieldWriter {
     if (presence == Presence::appended && value == E{}) return;
     to_[name] = names.names[static_cast<std::size_t>(value)];
   }
+  void bytes(const char* name, const std::vector<std::uint8_t>& value, [[maybe_unused]] std::size_t max, Presence) {
+    assert(value.size() <= max);
+    to_[name] = to_base64(value);
+  }
   template <class T>
-  void optional(const char* name, const std::optional<T>& value) {
+  void optional(const char* name, const std::optional<T>& value, Presence) {
     if (!value.has_value()) return;
     Json inner = Json::object();
     JsonFieldWriter writer(inner, steps_);

@@ -45,8 +45,14 @@ class BinaryFieldWriter {
     if (presence == Presence::appended && left_out(value == E{})) return;
     to_.push_back(static_cast<std::uint8_t>(value));
   }
+  void bytes(const char*, const std::vector<std::uint8_t>& value, [[maybe_unused]] std::size_t max, Presence) {
+    assert(value.size() <= max);
+    byte_io::append_varint(to_, value.size());
+    to_.insert(to_.end(), value.begin(), value.end());
+  }
   template <class T>
-  void optional(const char*, const std::optional<T>& value) {
+  void optional(const char*, const std::optional<T>& value, Presence presence) {
+    if (presence == Presence::appended && left_out(!value.has_value())) return;
     to_.push_back(value.has_value() ? 1 : 0);
     if (value.has_value()) visit_fields(*value, *this);
   }

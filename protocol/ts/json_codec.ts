@@ -9,6 +9,7 @@ import {
   type TimedFrame,
 } from './face_frame.ts';
 import { isAppended, limits, messages, type Field, type Message } from './generated/messages.ts';
+import { opusPacketMs } from './opus_packet.ts';
 import { parseJsonObject, type JsonCursor } from './json_cursor.ts';
 import { quantize, standardQuantizers, type QuantizerSteps } from './quantizers.ts';
 
@@ -41,6 +42,8 @@ export function encodeJson(message: Message, steps: QuantizerSteps = standardQua
     if (isAppended(field) && value === field.fallback) continue;
     if (field.type === 'state') {
       values[field.name] = frameToJson(value as FaceFrame, steps);
+    } else if (field.type === 'bytes') {
+      values[field.name] = toBase64(value as Uint8Array);
     } else if (field.type === 'frames') {
       values[field.name] = (value as TimedFrame[]).map(({ time, state }) => ({ time, ...frameToJson(state, steps) }));
     } else {
@@ -62,6 +65,9 @@ export function decodeJson(text: string, steps: QuantizerSteps = standardQuantiz
   if (!description) return type.fail('unsupported', `no message has the type "${name}"`);
   const values: Values = { type: name };
   for (const field of description.fields) values[field.name] = readField(root, field, steps);
+  if (name === 'sound' && opusPacketMs(values.packet as Uint8Array) === null) {
+    root.member('packet').fail('malformed', 'is no Opus packet');
+  }
   return values as unknown as Message;
 }
 
@@ -79,6 +85,8 @@ function readField(from: JsonCursor, field: Field, steps: QuantizerSteps): unkno
       return at.boolean();
     case 'text':
       return at.text(field.max);
+    case 'bytes':
+      return readBytes(at, field.max);
     case 'reals': {
       const elements = at.elements(0, field.length);
       if (elements.length !== 0 && elements.length !== field.length) {
@@ -102,6 +110,20 @@ function readField(from: JsonCursor, field: Field, steps: QuantizerSteps): unkno
     case 'optional_real':
       return at.isNull ? null : at.number(field.min, field.max);
   }
+}
+
+/** Longer texts than the runtime's stack takes as arguments do not occur: `max` of a field is some thousands. */
+function toBase64(bytes: Uint8Array): string {
+  return btoa(String.fromCharCode(...bytes));
+}
+
+function readBytes(at: JsonCursor, max: number): Uint8Array {
+  const text = at.text(Math.ceil(max / 3) * 4);
+  // atob() takes blanks and texts without padding, which no writer makes.
+  if (!/^(?:[A-Za-z0-9+/]{4})*(?:[A-Za-z0-9+/]{2}==|[A-Za-z0-9+/]{3}=)?$/.test(text)) at.fail('malformed', 'must be base64');
+  const bytes = Uint8Array.from(atob(text), (character) => character.charCodeAt(0));
+  if (bytes.length > max) at.fail('too_large', `must not exceed ${max} bytes`);
+  return bytes;
 }
 
 function readFrames(at: JsonCursor, steps: QuantizerSteps): TimedFrame[] {

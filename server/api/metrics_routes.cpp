@@ -78,6 +78,14 @@ void write_streams(TextWriter& writer, const streams::StreamHub& hub) {
                 counts.bytes_sent);
   writer.single("semblante_stream_messages_coalesced_total", MetricType::counter,
                 "Batches to subscribers that fell behind, replaced by the newest state.", counts.messages_replaced);
+  writer.single("semblante_stream_sound_packets_total", MetricType::counter, "Packets of sound that entered a stream.",
+                counts.sound_packets);
+  writer.single("semblante_stream_sound_messages_sent_total", MetricType::counter,
+                "Packets of sound sent, to each listener.", counts.sound_sent);
+  writer.single("semblante_stream_sound_sent_bytes_total", MetricType::counter,
+                "Bytes of these, WebSocket headers included.", counts.sound_bytes_sent);
+  writer.single("semblante_stream_sound_messages_dropped_total", MetricType::counter,
+                "Packets of sound not sent to listeners who read too slowly.", counts.sound_dropped);
   writer.single("semblante_stream_messages_dropped_total", MetricType::counter,
                 "Messages pending for connections closed as slow, and answers dropped at the limit.",
                 counts.messages_dropped);

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <mutex>
 #include <shared_mutex>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -28,6 +29,7 @@
 #include "server/http/media_type.h"
 #include "server/http/multipart.h"
 #include "server/streams/performance_source.h"
+#include "server/voice/sound_packets.h"
 #include "server/voice/speech_maker.h"
 
 namespace semblante::api {
@@ -127,6 +129,11 @@ const store::ArtefactRecord& file_of(const SpeechRecord& speech, std::string_vie
   return *found;
 }
 
+bool has_file(const SpeechRecord& speech, std::string_view name) {
+  return std::any_of(speech.files.begin(), speech.files.end(),
+                     [name](const store::ArtefactRecord& file) { return file.name == name; });
+}
+
 http::Response speech_file(Context& context, const http::Request& request, std::string_view name) {
   return file_response(context, request, file_of(speech_of(context, request), name), "no-cache");
 }
@@ -143,11 +150,7 @@ answer::Speech speech_answer(const SpeechRecord& speech) {
   const std::string self = "/v1/speeches/" + speech.id;
   const auto link = [&self](std::string_view name) { return self + "/" + std::string(name); };
   std::uint64_t bytes = 0;
-  bool sounds = false;
-  for (const auto& file : speech.files) {
-    bytes += file.bytes;
-    sounds |= file.name == audio;
-  }
+  for (const auto& file : speech.files) bytes += file.bytes;
   return {.id = speech.id,
           .created = speech.created,
           .request = {speech.request},
@@ -158,7 +161,7 @@ answer::Speech speech_answer(const SpeechRecord& speech) {
           .bytes = bytes,
           .warnings = speech.warnings,
           .links = {.self = self,
-                    .audio = sounds ? std::optional(link(audio)) : std::nullopt,
+                    .audio = has_file(speech, audio) ? std::optional(link(audio)) : std::nullopt,
                     .timeline = link(timeline),
                     .performance = link(performance),
                     .captions = link(captions)}};
@@ -178,7 +181,20 @@ void add_file(Context& context, SpeechRecord& speech, std::string_view name, std
   speech.files.push_back({std::string(name), blob->sha256, blob->bytes, std::string(type)});
 }
 
-http::Response play(Context& context, const http::Request& request, const PerformanceScript& script, bool take_over) {
+/// The sound as packets on the clock of its performance.
+std::vector<SoundPacket> sound_of(std::span<const std::int16_t> samples, std::uint32_t sample_rate) {
+  if (samples.empty()) return {};
+  auto packets = voice::sound_packets(samples, sample_rate);
+  if (!packets) refuse("internal", "the sound cannot be coded: " + packets.error().message);
+  std::vector<SoundPacket> sound;
+  for (std::size_t i = 0; i < packets->size(); ++i)
+    if (auto& packet = (*packets)[i]; !packet.empty())
+      sound.push_back({static_cast<std::uint64_t>(static_cast<double>(i) * voice::packet_ms), std::move(packet)});
+  return sound;
+}
+
+http::Response play(Context& context, const http::Request& request, const PerformanceScript& script,
+                    std::vector<SoundPacket> sound, bool take_over) {
   const auto& stream = request.params.at("stream");
   const auto info = context.hub.info(stream);
   if (!info) refuse("not-found", "there is no stream " + stream);
@@ -186,10 +202,10 @@ http::Response play(Context& context, const http::Request& request, const Perfor
   if (!compiled) refuse("internal", "the speech cannot be played: " + compiled.error().message);
   streams::PlayOptions options;
   options.take_over = take_over;
-  return play_into(
-      context, stream,
-      streams::make_performance_source(*std::move(compiled), scaled_quantizers(info->settings.quantizer_scale)),
-      options);
+  return play_into(context, stream,
+                   streams::make_performance_source(
+                       *std::move(compiled), scaled_quantizers(info->settings.quantizer_scale), std::move(sound)),
+                   options);
 }
 
 /// Makes and keeps a speech, unless an earlier request with the same key and fingerprint has.
@@ -330,7 +346,9 @@ http::Response speak_into_stream(Context& context, http::Request& request) {
   const bool take_over = flag_member(body, "take_over");
   if (!body.contains("speech")) {
     refuse_without_voice(context);
-    return play(context, request, make(context, speech_request(body)).performance, take_over);
+    const auto speech = make(context, speech_request(body));
+    return play(context, request, speech.performance, sound_of(speech.utterance.samples, speech.utterance.sample_rate),
+                take_over);
   }
   for (const auto& member : body.items())
     if (member.key() != "speech" && member.key() != "take_over")
@@ -344,7 +362,14 @@ http::Response speak_into_stream(Context& context, http::Request& request) {
   const MappedFile file(context.blobs.whole(file_of(*speech, performance).sha256));
   const auto script = read_performance(file.text());
   if (!script) refuse("internal", "the speech cannot be read: " + script.error().message);
-  return play(context, request, *script, take_over);
+  std::vector<SoundPacket> sound;
+  if (has_file(*speech, audio)) {
+    const MappedFile audio_file(context.blobs.whole(file_of(*speech, audio).sha256));
+    const auto recording = read_wav(audio_file.text());
+    if (!recording) refuse("internal", "the sound cannot be read: " + recording.error().message);
+    sound = sound_of(recording->samples, recording->sample_rate);
+  }
+  return play(context, request, *script, std::move(sound), take_over);
 }
 
 }  // namespace semblante::api

@@ -26,9 +26,9 @@ void Slice::send(http::GroupSender& sender, metrics::LatenessHistogram& lateness
     std::uint64_t handed = 0;
     for (const auto& delivery : group) {
       if (delivery.sent == http::Sent::handed) ++handed;
-      if (delivery.sent == http::Sent::refused) replaced_ += delivery.sink->drop_state() + 1;
+      if (delivery.sent == http::Sent::refused && !is_sound_) replaced_ += delivery.sink->drop_state() + 1;
     }
-    part.observe(std::chrono::duration<double>(Clock::now() - due_).count(), handed);
+    if (!is_sound_) part.observe(std::chrono::duration<double>(Clock::now() - due_).count(), handed);
   }
   lateness.add(part);
 }
@@ -44,50 +44,91 @@ void FanOut::count_sent(const http::WireMessage& message) {
   counts_.bytes_sent += message.bytes.size();
 }
 
-void FanOut::add(StreamPeer& client, http::WebSocketSink& sink, Coding coding, const http::WireMessage& begin,
-                 bool waits, const BatchLog& log) {
+void FanOut::add(StreamPeer& client, http::WebSocketSink& sink, Coding coding, bool listens,
+                 const http::WireMessage& begin, bool waits, const BatchLog& log) {
   Subscriber subscriber;
   subscriber.client = &client;
   subscriber.sink = &sink;
   subscriber.slot = &client.notes().subscriber;
   subscriber.next_batch = log.batches() + 1;
   subscriber.coding = coding;
+  subscriber.listens = listens;
   subscriber.waits = waits;
+  if (listens) ++listeners_;
   count_sent(begin);
   subscribers_.add(subscriber);
 }
 
 void FanOut::remove(StreamPeer& client) {
-  if (client.notes().subscriber != Subscriber::nowhere) subscribers_.remove(client.notes().subscriber);
+  if (client.notes().subscriber != Subscriber::nowhere) drop(client.notes().subscriber);
 }
 
 void FanOut::remove_all() {
-  while (subscribers_.size() > 0) subscribers_.remove(subscribers_.size() - 1);
+  while (subscribers_.size() > 0) drop(subscribers_.size() - 1);
+}
+
+void FanOut::drop(std::size_t slot) {
+  if (subscribers_[slot].listens) --listeners_;
+  subscribers_.remove(slot);
 }
 
 void FanOut::push(std::shared_ptr<Batch> batch) {
-  if (subscribers_.size() > 0) passes_.push_back(std::move(batch));
+  if (subscribers_.size() == 0) return;
+  const auto due = batch->due;
+  passes_.push_back({std::move(batch), {}, {}, due});
+}
+
+void FanOut::push_sound(SoundPacket sound, Clock::time_point due) {
+  if (listeners_ == 0) return;
+  if (passes_.size() >= most_passes / 2)
+    counts_.sound_dropped += listeners_;
+  else
+    passes_.push_back({nullptr, std::move(sound), {}, due});
+}
+
+const http::SharedWire& FanOut::sound_wire(Pass& pass, Coding coding) {
+  auto& wire = pass.sound_wires[static_cast<std::size_t>(coding)];
+  if (wire) return wire;
+  http::WireMessage message;
+  append_encoded(message.bytes, Message(pass.sound), coding == Coding::packed, standard_quantizers());
+  return wire = std::make_shared<const http::WireMessage>(std::move(message));
+}
+
+const http::SharedWire* FanOut::next_wire(Slice& slice, Subscriber& subscriber, BatchLog& log) {
+  auto& pass = passes_.front();
+  auto& wire = slice.wires_[static_cast<std::size_t>(subscriber.coding)];
+  if (!pass.batch) {
+    if (!subscriber.listens) return nullptr;
+    if (subscriber.behind || subscriber.waits) {
+      ++counts_.sound_dropped;
+      return nullptr;
+    }
+    if (!wire) wire = sound_wire(pass, subscriber.coding);
+    return &wire;
+  }
+  if (subscriber.next_batch > pass.batch->number) return nullptr;
+  subscriber.next_batch = pass.batch->number + 1;
+  if (subscriber.behind) {
+    ++counts_.messages_replaced;
+    return nullptr;
+  }
+  if (!wire) wire = log.wire(*pass.batch, subscriber.coding);
+  return &wire;
 }
 
 bool FanOut::next_slice(Slice& slice, BatchLog& log) {
   if (passes_.empty()) return false;
-  auto& batch = *passes_.front();
   slice.targets_.clear();
   slice.deliveries_.clear();
   slice.wires_ = {};
-  slice.due_ = batch.due;
+  slice.due_ = passes_.front().due;
+  slice.is_sound_ = passes_.front().batch == nullptr;
   slice.replaced_ = 0;
   for (auto& subscriber : subscribers_.next(slice_size)) {
-    if (subscriber.next_batch > batch.number) continue;
-    subscriber.next_batch = batch.number + 1;
-    if (subscriber.behind) {
-      ++counts_.messages_replaced;
-      continue;
-    }
-    auto& wire = slice.wires_[static_cast<std::size_t>(subscriber.coding)];
-    if (!wire) wire = log.wire(batch, subscriber.coding);
+    const auto* wire = next_wire(slice, subscriber, log);
+    if (wire == nullptr) continue;
     slice.targets_.push_back({subscriber.client, subscriber.coding});
-    slice.deliveries_.push_back({subscriber.sink, &wire, http::Sent::refused});
+    slice.deliveries_.push_back({subscriber.sink, wire, http::Sent::refused});
   }
   return true;
 }
@@ -99,7 +140,13 @@ void FanOut::finish_slice(Slice& slice, BatchLog& log) {
     const auto sent = slice.deliveries_[i].sent;
     if (sent == http::Sent::closed) continue;
     if (sent != http::Sent::refused) {
-      count_sent(*slice.wires_[static_cast<std::size_t>(target.coding)]);
+      const auto& wire = *slice.wires_[static_cast<std::size_t>(target.coding)];
+      if (slice.is_sound_) {
+        ++counts_.sound_sent;
+        counts_.sound_bytes_sent += wire.bytes.size();
+      } else {
+        count_sent(wire);
+      }
       if (sent == http::Sent::handed) continue;
     }
     const auto slot = target.client->notes().subscriber;
@@ -107,6 +154,10 @@ void FanOut::finish_slice(Slice& slice, BatchLog& log) {
     auto& subscriber = subscribers_[slot];
     subscriber.waits = true;
     if (sent != http::Sent::refused) continue;
+    if (slice.is_sound_) {
+      ++counts_.sound_dropped;
+      continue;
+    }
     subscriber.behind = true;
     // The socket may have become writable meanwhile; no other event would report that.
     if (subscriber.sink->idle()) send_newest(subscriber, log);
@@ -119,7 +170,9 @@ void FanOut::finish_slice(Slice& slice, BatchLog& log) {
 
 void FanOut::send_rest(BatchLog& log) {
   for (auto& subscriber : subscribers_.all()) {
-    for (const auto& batch : passes_) {
+    for (const auto& pass : passes_) {
+      const auto& batch = pass.batch;
+      if (!batch) continue;
       if (subscriber.behind) break;
       if (subscriber.next_batch > batch->number) continue;
       const auto& wire = log.wire(*batch, subscriber.coding);
@@ -163,7 +216,7 @@ std::vector<StreamPeer*> FanOut::remove_stalled(std::chrono::milliseconds patien
   }
   for (auto* client : stalled) {
     counts_.messages_dropped += subscribers_[client->notes().subscriber].sink->drop_state();
-    subscribers_.remove(client->notes().subscriber);
+    drop(client->notes().subscriber);
   }
   return stalled;
 }

@@ -33,12 +33,14 @@ class Slice {
   std::vector<http::Delivery> deliveries_;  ///< of each target, in their order
   std::array<http::SharedWire, coding_count> wires_;
   std::chrono::steady_clock::time_point due_;
+  bool is_sound_ = false;
   std::size_t replaced_ = 0;  ///< pending messages dropped for targets that fell behind
 };
 
 /// Sends batches to the subscribers of a stream, one slice after another. A subscriber that reads too slowly *falls
 /// behind*: its pending messages are dropped, and it gets no batch until its socket is writable again; then it gets the
-/// newest state. Not synchronized, but see Slice.
+/// newest state. Sound goes only to subscribers for whom nothing waits, so that it never takes the place of frames. Not
+/// synchronized, but see Slice.
 class FanOut {
  public:
   using Clock = std::chrono::steady_clock;
@@ -49,15 +51,17 @@ class FanOut {
   [[nodiscard]] std::size_t size() const { return subscribers_.size(); }
   [[nodiscard]] std::array<std::size_t, coding_count> by_coding() const;
 
-  /// Adds a subscriber whose `begin` has been sent; the log's next batch is its first. `waits`: part of `begin` is
-  /// still in the outbox.
-  void add(StreamPeer& client, http::WebSocketSink& sink, Coding coding, const http::WireMessage& begin, bool waits,
-           const BatchLog& log);
+  /// Adds a subscriber whose `begin` has been sent; the log's next batch is its first. `listens`: it gets the sound.
+  /// `waits`: part of `begin` is still in the outbox.
+  void add(StreamPeer& client, http::WebSocketSink& sink, Coding coding, bool listens, const http::WireMessage& begin,
+           bool waits, const BatchLog& log);
   void remove(StreamPeer& client);
   void remove_all();
 
   /// Queues a closed batch for all current subscribers.
   void push(std::shared_ptr<Batch> batch);
+  /// Queues a packet of sound for all current listeners; drops it when sending is slow.
+  void push_sound(SoundPacket sound, Clock::time_point due);
   [[nodiscard]] bool is_idle() const { return passes_.empty(); }
   /// False while the queue of batches is full; frames should gather longer then.
   [[nodiscard]] bool has_room() const { return passes_.size() < most_passes; }
@@ -78,12 +82,25 @@ class FanOut {
   /// When sending is slower than frames arrive, they gather into longer batches instead of a longer queue.
   static constexpr std::size_t most_passes = 4;
 
+  /// What is sent to all subscribers: a batch, or a packet of sound.
+  struct Pass {
+    std::shared_ptr<Batch> batch;  ///< null: sound
+    SoundPacket sound;
+    std::array<http::SharedWire, coding_count> sound_wires;
+    Clock::time_point due;
+  };
+  static const http::SharedWire& sound_wire(Pass& pass, Coding coding);
+
   void count_sent(const http::WireMessage& message);
+  void drop(std::size_t slot);
+  /// Sets what `subscriber` is to get of the first pass; null: nothing.
+  const http::SharedWire* next_wire(Slice& slice, Subscriber& subscriber, BatchLog& log);
   void send_newest(Subscriber& subscriber, BatchLog& log);
 
   StreamCounts& counts_;
   SubscriberList subscribers_;
-  std::deque<std::shared_ptr<Batch>> passes_;  ///< queue; the first is being sent
+  std::size_t listeners_ = 0;  ///< subscribers that get the sound
+  std::deque<Pass> passes_;    ///< queue; the first is being sent
 };
 
 }  // namespace semblante::streams

@@ -3,10 +3,11 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
-#include "protocol/cpp/face_frame.h"
+#include "protocol/cpp/messages.h"
 
 namespace semblante::streams {
 
@@ -39,6 +40,9 @@ class FrameSource {
   /// For a source whose frames have their own times: the frames from the first one at or after `ms` on. Each is played
   /// at its time, none is skipped or interpolated. Null: the source is played at a rate.
   [[nodiscard]] virtual std::unique_ptr<FrameCursor> frames_from(double /*ms*/) const { return nullptr; }
+  /// Its sound: packets with the time of each, ms after the beginning of the source, increasing. Valid as long as the
+  /// source. It is heard once, also of a loop.
+  [[nodiscard]] virtual std::span<const SoundPacket> sound() const { return {}; }
   /// Approximate memory use.
   [[nodiscard]] virtual std::size_t bytes() const = 0;
 };

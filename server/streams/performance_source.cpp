@@ -12,8 +12,8 @@ namespace {
 
 class PerformanceSource : public FrameSource {
  public:
-  PerformanceSource(Performance performance, const QuantizerSteps& steps)
-      : performance_(std::move(performance)), steps_(steps) {}
+  PerformanceSource(Performance performance, const QuantizerSteps& steps, std::vector<SoundPacket> sound)
+      : performance_(std::move(performance)), steps_(steps), sound_(std::move(sound)) {}
   [[nodiscard]] std::string_view kind() const override { return "performance"; }
   [[nodiscard]] std::string name() const override { return performance_.name(); }
   [[nodiscard]] double duration() const override { return performance_.duration(); }
@@ -21,17 +21,24 @@ class PerformanceSource : public FrameSource {
     return quantized(performance_.frame_at(ms, played_ms), steps_);
   }
 
-  [[nodiscard]] std::size_t bytes() const override { return performance_.bytes(); }
+  [[nodiscard]] std::span<const SoundPacket> sound() const override { return sound_; }
+  [[nodiscard]] std::size_t bytes() const override {
+    std::size_t bytes = performance_.bytes();
+    for (const auto& packet : sound_) bytes += sizeof(packet) + packet.packet.capacity();
+    return bytes;
+  }
 
  private:
   const Performance performance_;
   const QuantizerSteps steps_;
+  const std::vector<SoundPacket> sound_;
 };
 
 }  // namespace
 
-std::shared_ptr<const FrameSource> make_performance_source(Performance performance, const QuantizerSteps& steps) {
-  return std::make_shared<PerformanceSource>(std::move(performance), steps);
+std::shared_ptr<const FrameSource> make_performance_source(Performance performance, const QuantizerSteps& steps,
+                                                           std::vector<SoundPacket> sound) {
+  return std::make_shared<PerformanceSource>(std::move(performance), steps, std::move(sound));
 }
 
 std::shared_ptr<const FrameSource> demo_source() {

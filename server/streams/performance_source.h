@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "core/performance/performance.h"
 #include "protocol/cpp/quantizers.h"
@@ -8,9 +9,10 @@
 
 namespace semblante::streams {
 
-/// Plays a performance. `steps` are the quantizer steps of the stream that plays it.
+/// Plays a performance. `steps` are the quantizer steps of the stream that plays it; `sound`: see FrameSource::sound().
 std::shared_ptr<const FrameSource> make_performance_source(Performance performance,
-                                                           const QuantizerSteps& steps = standard_quantizers());
+                                                           const QuantizerSteps& steps = standard_quantizers(),
+                                                           std::vector<SoundPacket> sound = {});
 
 /// The source of the stream `demo`: the embedded document of demo_document.h.
 std::shared_ptr<const FrameSource> demo_source();

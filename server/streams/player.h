@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <memory>
@@ -32,13 +33,14 @@ class Player {
   Player(std::string id, std::shared_ptr<Stream> stream, std::uint64_t ticket,
          std::shared_ptr<const FrameSource> source, PlayOptions options, Clock::time_point begin);
 
-  /// When the next frame is due; Clock::time_point::max() when there is none.
-  [[nodiscard]] Clock::time_point next() const { return next_; }
+  /// When the next frame or sound is due; Clock::time_point::max() when there is none.
+  [[nodiscard]] Clock::time_point next() const { return std::min(next_, next_sound_time()); }
   [[nodiscard]] bool finished() const { return finished_; }
   [[nodiscard]] const std::string& id() const { return id_; }
 
-  /// Sends the newest frame that is due; of a source with its own times all that are due, at most `most_at_once`.
-  /// Finished after the last frame, or when another source has taken over the stream.
+  /// Sends the sound that is due, without packets that are more than 200 ms late, and the newest frame that is due; of
+  /// a source with its own times all that are due, at most `most_at_once`. Finished after the last frame, or when
+  /// another source has taken over the stream.
   void play(Clock::time_point now);
 
   /// Ends the play early; the face returns to neutral.
@@ -53,6 +55,8 @@ class Player {
   bool publish(double played_ms, const FaceFrame& face);
   void play_at_rate(Clock::time_point now);
   void play_frames(Clock::time_point now);
+  void play_sound(Clock::time_point now);
+  [[nodiscard]] Clock::time_point next_sound_time() const;
   [[nodiscard]] Clock::time_point time_of(double played_ms) const;
   [[nodiscard]] double frame_ms() const { return 1000.0 / options_.rate; }
 
@@ -62,8 +66,9 @@ class Player {
   const std::shared_ptr<const FrameSource> source_;
   const PlayOptions options_;
   const Clock::time_point begin_;
-  double end_;  ///< ms after begin_; infinite when looped or endless
-  Clock::time_point next_;
+  double end_;              ///< ms after begin_; infinite when looped or endless
+  Clock::time_point next_;  ///< frame
+  std::size_t next_sound_;  ///< index of the next packet
   std::uint64_t frame_ = 0;
   std::unique_ptr<FrameCursor> frames_;  ///< null: played at a rate
   double rounds_ms_ = 0.0;               ///< length of the loop's earlier rounds, minus options_.from

@@ -46,6 +46,8 @@ class SourceArbiter {
   Result<Claim> claim(Source source, double rate, bool take_over, Clock::time_point now);
   /// Ends a hold; false when it had ended before.
   bool release(Ticket ticket, Clock::time_point now);
+  /// Whether this claim still holds the stream.
+  [[nodiscard]] bool holds(Ticket ticket) const { return holder_ && holder_->ticket == ticket; }
 
   /// Frames of a publisher. `media_time` is by its own clock, 0: now. May change the frames' times, so that media time
   /// never decreases. Errors: `mismatch` (it no longer holds the stream), `out_of_range` (the frames last too long),

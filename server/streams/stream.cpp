@@ -95,8 +95,8 @@ Header Stream::header() const {
   return stream_header(made_, log_.taken());
 }
 
-Header Stream::header_for(bool recovered) const {
-  return connection_header(made_, log_.sequence(), media_time_now(), sources_.rate(), recovered);
+Header Stream::header_for(bool recovered, bool sound) const {
+  return connection_header(made_, log_.sequence(), media_time_now(), sources_.rate(), recovered, sound);
 }
 
 void Stream::set_listener(std::shared_ptr<BatchListener> listener) {
@@ -207,6 +207,15 @@ Status Stream::publish_playing(Ticket ticket, Clock::time_point when, const Time
   return Unit{};
 }
 
+void Stream::publish_sound(Ticket ticket, Clock::time_point when, const std::vector<std::uint8_t>& packet) {
+  const SendAfter after(*this);
+  const std::lock_guard lock(mutex_);
+  if (ended_ || !sources_.holds(ticket)) return;
+  ++counts_.sound_packets;
+  fan_out_.push_sound({media_time_at(began_, when), packet}, when);
+  want(next_work(Clock::now()));
+}
+
 void Stream::end_playing(Ticket ticket, bool neutral) {
   if (neutral) static_cast<void>(publish_playing(ticket, Clock::now(), TimedFrame{}).ok());
   const std::lock_guard lock(mutex_);
@@ -254,7 +263,7 @@ void Stream::subscribe(StreamPeer& client, http::WebSocketSink& sink, const Hell
   const auto coding = binary ? Coding::packed : Coding::json;
   const auto begin = log_.begin(coding, hello.resume);
   http::WireMessage header;
-  append_encoded(header.bytes, Message(header_for(begin.recovered)), binary, steps_);
+  append_encoded(header.bytes, Message(header_for(begin.recovered, hello.sound)), binary, steps_);
   const auto told = sink.send(std::make_shared<const http::WireMessage>(std::move(header)), http::Purpose::answer);
   if (told == http::Sent::closed) return;
   if (told == http::Sent::refused) ++counts_.messages_dropped;
@@ -266,7 +275,7 @@ void Stream::subscribe(StreamPeer& client, http::WebSocketSink& sink, const Hell
     close_as_slow(client);
     return;
   }
-  fan_out_.add(client, sink, coding, *begin.wire, sent != http::Sent::handed, log_);
+  fan_out_.add(client, sink, coding, hello.sound, *begin.wire, sent != http::Sent::handed, log_);
 }
 
 void Stream::writable(StreamPeer& client) {

@@ -56,6 +56,8 @@ class Stream : public StreamAccess, public std::enable_shared_from_this<Stream> 
   Result<Ticket> begin_playing(double rate, bool take_over, Source source = Source::performance);
   /// One frame of a player, due at `when`. Errors: `mismatch` when the play has ended.
   Status publish_playing(Ticket ticket, Clock::time_point when, const TimedFrame& frame);
+  /// One packet of a player's sound, due at `when`. Dropped when the play has ended.
+  void publish_sound(Ticket ticket, Clock::time_point when, const std::vector<std::uint8_t>& packet);
   /// Does nothing when another source holds the stream already. `neutral`: the face returns to neutral.
   void end_playing(Ticket ticket, bool neutral);
   /// A frame of the stream's own filling; dropped while another source feeds the stream or did so recently.
@@ -102,7 +104,7 @@ class Stream : public StreamAccess, public std::enable_shared_from_this<Stream> 
   Result<Ticket> claim(Source source, double rate, bool take_over, StreamPeer* publisher);
   void release(StreamPeer& publisher);
   [[nodiscard]] StreamCounts all_counts() const;
-  [[nodiscard]] Header header_for(bool recovered) const;
+  [[nodiscard]] Header header_for(bool recovered, bool sound = false) const;
   [[nodiscard]] Clock::time_point next_work(Clock::time_point now) const;
   void want(Clock::time_point when);
 

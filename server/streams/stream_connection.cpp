@@ -98,23 +98,24 @@ void StreamConnection::handle(Message message) {
     refuse(StreamErrorCode::missing, "", "the first message must be a hello");
     return;
   }
-  std::visit(Overloaded{[&](const Hello& hello) { handle_hello(hello); },
-                        [&](const Frames& frames) { handle_frames(frames.media_time, frames.frames); },
-                        [&](const Keyframe& key) {
-                          handle_frames(key.media_time, {TimedFrame{0, key.state}});
-                        },
-                        [&](const Ping& ping) {
-                          send(Message(Pong{ping.id, ping.client_time, server_time_now(), stream_->media_time_now()}));
-                        },
-                        [&](const End&) {
-                          stream_->end_publishing(*this);
-                          close(Message(End{EndReason::finished}), {1000, "bye"});
-                        },
-                        [&](const Pong&) {}, [&](const StreamError&) {},
-                        [&](const Header&) {
-                          refuse(StreamErrorCode::invalid_argument, "", "only the server sends a header");
-                        }},
-             message);
+  std::visit(
+      Overloaded{
+          [&](const Hello& hello) { handle_hello(hello); },
+          [&](const Frames& frames) { handle_frames(frames.media_time, frames.frames); },
+          [&](const Keyframe& key) {
+            handle_frames(key.media_time, {TimedFrame{0, key.state}});
+          },
+          [&](const Ping& ping) {
+            send(Message(Pong{ping.id, ping.client_time, server_time_now(), stream_->media_time_now()}));
+          },
+          [&](const End&) {
+            stream_->end_publishing(*this);
+            close(Message(End{EndReason::finished}), {1000, "bye"});
+          },
+          [&](const Pong&) {}, [&](const StreamError&) {},
+          [&](const SoundPacket&) { refuse(StreamErrorCode::invalid_argument, "", "only the server sends sound"); },
+          [&](const Header&) { refuse(StreamErrorCode::invalid_argument, "", "only the server sends a header"); }},
+      message);
 }
 
 void StreamConnection::handle_hello(const Hello& hello) {

@@ -17,6 +17,10 @@ struct StreamCounts {
   std::uint64_t bytes_sent = 0;         ///< of these, WebSocket headers included
   std::uint64_t messages_replaced = 0;  ///< batches replaced by newer state for slow subscribers
   std::uint64_t messages_dropped = 0;   ///< pending when their connection was closed as slow; answers refused
+  std::uint64_t sound_packets = 0;      ///< accepted from sources
+  std::uint64_t sound_sent = 0;         ///< messages, to each listener
+  std::uint64_t sound_bytes_sent = 0;   ///< of these, WebSocket headers included
+  std::uint64_t sound_dropped = 0;      ///< not sent to listeners who read too slowly
   std::uint64_t closed_slow = 0;        ///< subscribers that read nothing
   std::uint64_t closed_silent = 0;      ///< connections that sent no hello
   std::uint64_t closed_replaced = 0;    ///< publishers replaced by another source
@@ -37,6 +41,10 @@ struct StreamCounts {
     bytes_sent += other.bytes_sent;
     messages_replaced += other.messages_replaced;
     messages_dropped += other.messages_dropped;
+    sound_packets += other.sound_packets;
+    sound_sent += other.sound_sent;
+    sound_bytes_sent += other.sound_bytes_sent;
+    sound_dropped += other.sound_dropped;
     closed_slow += other.closed_slow;
     closed_silent += other.closed_silent;
     closed_replaced += other.closed_replaced;

@@ -22,7 +22,7 @@ Header stream_header(const StreamInfo& stream, std::uint64_t sequence) {
 }
 
 Header connection_header(const StreamInfo& stream, std::uint64_t sequence, std::uint64_t media_time, double rate,
-                         bool recovered) {
+                         bool recovered, bool sound) {
   Header header = stream_header(stream, sequence);
   header.media_time = media_time;
   header.batch_interval = stream.settings.batch_interval;
@@ -31,6 +31,7 @@ Header connection_header(const StreamInfo& stream, std::uint64_t sequence, std::
     header.batch_interval = std::max(header.batch_interval, static_cast<std::uint32_t>(std::lround(1000.0 / rate)));
   }
   header.recovered = recovered;
+  if (sound) header.sound = stream_sound;
   return header;
 }
 

@@ -12,8 +12,11 @@ namespace semblante::streams {
 Header stream_header(const StreamInfo& stream, std::uint64_t sequence);
 
 /// The same for one connection, with the members that it needs to follow the stream. `media_time`: now. `rate`: frames
-/// per second of the current source, 0: unknown.
+/// per second of the current source, 0: unknown. `sound`: whether this connection asked for it.
 Header connection_header(const StreamInfo& stream, std::uint64_t sequence, std::uint64_t media_time, double rate,
-                         bool recovered);
+                         bool recovered, bool sound);
+
+/// The sound that every stream can have. Its packets are made by voice/sound_packets.h.
+inline constexpr SoundTrack stream_sound = {SoundCodec::opus, 48'000, 1, 20'000};
 
 }  // namespace semblante::streams

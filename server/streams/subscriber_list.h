@@ -24,8 +24,9 @@ struct Subscriber {
   std::size_t* slot = nullptr;   ///< where its current index in the list is stored
   std::uint64_t next_batch = 0;  ///< number of the first batch it has not been sent
   Coding coding = Coding::packed;
-  bool behind = false;  ///< needs the newest state before the next batch
-  bool waits = false;   ///< its outbox may have messages
+  bool listens = false;  ///< asked for the sound
+  bool behind = false;   ///< needs the newest state before the next batch
+  bool waits = false;    ///< its outbox may have messages
 };
 
 /// The subscribers of a stream, contiguous in memory, and the cursor of the pass that sends a batch to them.

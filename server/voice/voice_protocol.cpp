@@ -5,10 +5,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/json/base64.h"
 #include "core/json/json_cursor.h"
 #include "core/json/read_json.h"
 #include "core/types/printable.h"
-#include "server/voice/base64.h"
 
 namespace semblante::voice {
 namespace {

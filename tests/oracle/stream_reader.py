@@ -5,6 +5,8 @@ there is not to be taken from the C++ or TypeScript but to be said there. Slow a
 
 A message is a dict as its JSON form, but that each state is a Face (levels, not FAP units) and each frame (time, Face)."""
 
+import base64
+import binascii
 import json
 import pathlib
 import re
@@ -114,6 +116,8 @@ def read_field(source, field, where):
         return source.flag(where)
     if kind == "text":
         return source.text(field["max"], where)
+    if kind == "bytes":
+        return source.take(source.varint(where, field["max"], "too_large"), where)
     if kind == "enum":
         return enum_value(field["enum"], source.u8(where), where)
     if kind == "reals":
@@ -154,6 +158,16 @@ def put(message, field, value):
         message[field["name"]] = value
 
 
+def opus_packet_ms(packet):
+    """How long it lasts by its first bytes, as section 2.1 has it; None: it is no packet."""
+    if not packet or (packet[0] % 4 == 3 and len(packet) < 2):
+        return None
+    frames = (1, 2, 2, packet[1] % 64 if packet[0] % 4 == 3 else 0)[packet[0] % 4]
+    kind = packet[0] // 8
+    ms = (10, 20, 40, 60)[kind % 4] if kind < 12 else (10, 20)[kind % 2] if kind < 16 else (2.5, 5, 10, 20)[kind % 4]
+    return frames * ms if 0 < frames * ms <= 120 else None
+
+
 class Reader:
     """Reads the messages of one connection in order. A message that is refused changes nothing."""
 
@@ -175,8 +189,13 @@ class Reader:
         for field in MESSAGES[kind]["fields"]:
             if not (appended(field) and source.at == len(data)):
                 put(message, field, read_field(source, field, "/" + field["name"]))
+        return self._taken(message)
+
+    def _taken(self, message):
         if message["type"] == "header":
             self.steps = message["quantizers"] or STANDARD_STEPS
+        if message["type"] == "sound" and not opus_packet_ms(message["packet"]):
+            raise Refused("malformed", "/packet")
         return message
 
     def _packed(self, kind, source):
@@ -215,9 +234,7 @@ class Reader:
         message = {"type": name}
         for field in NAMED[name]["fields"]:
             self._member(document, field, message, "")
-        if name == "header":
-            self.steps = message["quantizers"] or STANDARD_STEPS
-        return message
+        return self._taken(message)
 
     def _member(self, document, field, message, where):
         name, kind = field["name"], field["type"]
@@ -297,6 +314,13 @@ def json_field(value, field, where):
     if kind == "text":
         held(len(wants(value, str, where).encode()), 0, field["max"], where, "too_large")
         return value
+    if kind == "bytes":
+        try:
+            data = base64.b64decode(wants(value, str, where), validate=True)
+        except binascii.Error:
+            raise Refused("malformed", where) from None
+        held(len(data), 0, field["max"], where, "too_large")
+        return data
     if kind == "enum":
         names = [v["name"] for v in ENUMS[field["enum"]]["values"]]
         if wants(value, str, where) not in names and not ENUMS[field["enum"]]["open"]:

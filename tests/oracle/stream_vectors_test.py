@@ -3,7 +3,7 @@
 import json
 import sys
 
-from stream_reader import PROTOCOL, STANDARD_STEPS, Reader, Refused
+from stream_reader import PROTOCOL, STANDARD_STEPS, Reader, Refused, opus_packet_ms
 
 FOLDER = PROTOCOL / "vectors/v1"
 failures = checks = 0
@@ -53,7 +53,14 @@ others = [{"as": "header with the standard steps", "binary": appended["reads_as_
 for other in others:
     check(Reader().binary(bytes.fromhex(other["binary"])) == named[other["as"]], f"{other['binary']} as {other['as']}")
 
-for case in vectors("refused.json")["refused"]:
+sound = vectors("sound.json")
+reader, as_json = Reader(), Reader()
+for message in sound["messages"]:
+    read = same(reader, as_json, message, message["name"])
+    if read["type"] == "sound":
+        check(opus_packet_ms(read["packet"]) == message["lasts"], message["name"])
+
+for case in vectors("refused.json")["refused"] + sound["refused"]:
     reader = Reader()
     reader.binary(bytes.fromhex("090000e3"))
     if "binary" in case:

@@ -39,6 +39,7 @@ inline constexpr std::size_t max_json_message_bytes = 1048576;
 inline constexpr std::size_t max_frames_per_message = 1024;
 inline constexpr std::size_t max_frame_time = 86400000;
 inline constexpr std::size_t max_level = 32767;
+inline constexpr std::size_t max_sound_packet_bytes = 4000;
 
 /// The role of a client in the stream.
 enum class StreamRole : std::uint8_t {
@@ -59,6 +60,14 @@ enum class EndReason : std::uint8_t {
 };
 inline constexpr std::array<std::string_view, 6> end_reason_value_names = {"other", "finished", "deleted", "shutdown", "replaced", "slow"};
 inline constexpr EnumNames end_reason_names{end_reason_value_names, true};
+
+/// How the packets of a sound are coded.
+enum class SoundCodec : std::uint8_t {
+  other,  ///< a codec unknown to this version
+  opus,  ///< RFC 6716, without container
+};
+inline constexpr std::array<std::string_view, 2> sound_codec_value_names = {"other", "opus"};
+inline constexpr EnumNames sound_codec_names{sound_codec_value_names, true};
 
 /// The kind of error in a message.
 enum class StreamErrorCode : std::uint8_t {
@@ -88,12 +97,22 @@ struct ResumePoint {
   friend bool operator==(const ResumePoint&, const ResumePoint&) = default;
 };
 
+/// The sound of a stream.
+struct SoundTrack {
+  SoundCodec codec{};
+  std::uint32_t rate = 0;  ///< 1/s; samples per second of the decoded sound
+  std::uint32_t channels = 0;
+  std::uint32_t bitrate = 0;  ///< bit/s; while somebody speaks; 0: unknown
+  friend bool operator==(const SoundTrack&, const SoundTrack&) = default;
+};
+
 /// The first message of a client.
 struct Hello {
   std::uint32_t version = 1;  ///< highest protocol version the client knows
   StreamRole role{};
   std::optional<ResumePoint> resume;  ///< present after a lost connection
   bool take_over = false;  ///< for a publisher: replace the current source
+  bool sound = false;  ///< for a subscriber: send the sound too
   friend bool operator==(const Hello&, const Hello&) = default;
 };
 
@@ -112,6 +131,7 @@ struct Header {
   std::vector<double> quantizers;  ///< FAP units; steps of FAPs 3 to 68; empty: the standard steps
   bool recovered = false;  ///< all frames after the resume point follow: none was lost
   std::optional<double> viseme_share;  ///< viseme share of Eq. 5, in place of rig.json's; absent: rig.json's
+  std::optional<SoundTrack> sound;  ///< the sound that may follow; absent: none was asked for, or the server has none
   friend bool operator==(const Header&, const Header&) = default;
 };
 
@@ -145,6 +165,13 @@ struct StreamError {
   friend bool operator==(const StreamError&, const StreamError&) = default;
 };
 
+/// One packet of the sound. Nothing is heard between the end of a packet and a later beginning of the next one.
+struct SoundPacket {
+  std::uint64_t media_time = 0;  ///< ms; when its first sample is heard, on the clock of the frames
+  std::vector<std::uint8_t> packet;  ///< one packet of the header's codec
+  friend bool operator==(const SoundPacket&, const SoundPacket&) = default;
+};
+
 /// Requests the clocks of server and stream.
 struct Ping {
   std::uint32_t id = 0;  ///< returned in the pong
@@ -161,7 +188,7 @@ struct Pong {
   friend bool operator==(const Pong&, const Pong&) = default;
 };
 
-using Message = std::variant<Hello, Header, Keyframe, Frames, End, StreamError, Ping, Pong>;
+using Message = std::variant<Hello, Header, Keyframe, Frames, End, StreamError, SoundPacket, Ping, Pong>;
 
 /// First byte of the binary form and `type` of the JSON form, for each message.
 template <class M>
@@ -197,6 +224,11 @@ struct MessageTraits<StreamError> {
   static constexpr std::string_view name = "error";
 };
 template <>
+struct MessageTraits<SoundPacket> {
+  static constexpr std::uint8_t type = 10;
+  static constexpr std::string_view name = "sound";
+};
+template <>
 struct MessageTraits<Ping> {
   static constexpr std::uint8_t type = 7;
   static constexpr std::string_view name = "ping";
@@ -217,12 +249,22 @@ void visit_fields(M& m, V& v) {
 }
 
 template <class M, class V>
+  requires std::same_as<std::remove_const_t<M>, SoundTrack>
+void visit_fields(M& m, V& v) {
+  v.enumeration("codec", m.codec, sound_codec_names, Presence::defaulted);
+  v.uint("rate", m.rate, 192000U, Presence::defaulted);
+  v.uint("channels", m.channels, 2U, Presence::defaulted);
+  v.uint("bitrate", m.bitrate, 4294967295U, Presence::defaulted);
+}
+
+template <class M, class V>
   requires std::same_as<std::remove_const_t<M>, Hello>
 void visit_fields(M& m, V& v) {
   v.uint("version", m.version, 65535U, Presence::required);
   v.enumeration("role", m.role, stream_role_names, Presence::defaulted);
-  v.optional("resume", m.resume);
+  v.optional("resume", m.resume, Presence::defaulted);
   v.boolean("take_over", m.take_over, Presence::appended);
+  v.boolean("sound", m.sound, Presence::appended);
 }
 
 template <class M, class V>
@@ -241,6 +283,7 @@ void visit_fields(M& m, V& v) {
   v.reals("quantizers", m.quantizers, 66, 1e-06, 1000000.0, Presence::defaulted);
   v.boolean("recovered", m.recovered, Presence::defaulted);
   v.optional_real("viseme_share", m.viseme_share, 0, 1);
+  v.optional("sound", m.sound, Presence::appended);
 }
 
 template <class M, class V>
@@ -271,6 +314,13 @@ void visit_fields(M& m, V& v) {
   v.enumeration("code", m.code, stream_error_code_names, Presence::defaulted);
   v.text("where", m.where, 1024, Presence::defaulted);
   v.text("message", m.message, 4096, Presence::defaulted);
+}
+
+template <class M, class V>
+  requires std::same_as<std::remove_const_t<M>, SoundPacket>
+void visit_fields(M& m, V& v) {
+  v.uint("media_time", m.media_time, 9007199254740991U, Presence::defaulted);
+  v.bytes("packet", m.packet, 4000, Presence::required);
 }
 
 template <class M, class V>

@@ -12,6 +12,7 @@ export const limits = {
   max_frames_per_message: 1024,
   max_frame_time: 86400000,
   max_level: 32767,
+  max_sound_packet_bytes: 4000,
 } as const;
 
 /** The role of a client in the stream. */
@@ -19,6 +20,9 @@ export type StreamRole = 'subscribe' | 'publish';
 
 /** Why a stream or a connection ends. */
 export type EndReason = 'other' | 'finished' | 'deleted' | 'shutdown' | 'replaced' | 'slow';
+
+/** How the packets of a sound are coded. */
+export type SoundCodec = 'other' | 'opus';
 
 /** The kind of error in a message. */
 export type StreamErrorCode = 'other' | 'malformed' | 'truncated' | 'out_of_range' | 'not_finite' | 'too_large' | 'unsupported' | 'mismatch' | 'missing' | 'invalid_argument' | 'not_found' | 'conflict' | 'throttled' | 'unauthorized' | 'internal';
@@ -31,6 +35,16 @@ export interface ResumePoint {
   sequence: number;
 }
 
+/** The sound of a stream. */
+export interface SoundTrack {
+  codec: SoundCodec;
+  /** 1/s; samples per second of the decoded sound */
+  rate: number;
+  channels: number;
+  /** bit/s; while somebody speaks; 0: unknown */
+  bitrate: number;
+}
+
 /** The first message of a client. */
 export interface Hello {
   type: 'hello';
@@ -41,6 +55,8 @@ export interface Hello {
   resume: ResumePoint | null;
   /** for a publisher: replace the current source */
   take_over: boolean;
+  /** for a subscriber: send the sound too */
+  sound: boolean;
 }
 
 /** The first message of a server: properties of the stream and its encoding. */
@@ -72,6 +88,8 @@ export interface Header {
   recovered: boolean;
   /** viseme share of Eq. 5, in place of rig.json's; absent: rig.json's */
   viseme_share: number | null;
+  /** the sound that may follow; absent: none was asked for, or the server has none */
+  sound: SoundTrack | null;
 }
 
 /** The complete state at one moment, from which a reader can start. */
@@ -111,6 +129,15 @@ export interface StreamError {
   message: string;
 }
 
+/** One packet of the sound. Nothing is heard between the end of a packet and a later beginning of the next one. */
+export interface SoundPacket {
+  type: 'sound';
+  /** ms; when its first sample is heard, on the clock of the frames */
+  media_time: number;
+  /** one packet of the header's codec */
+  packet: Uint8Array;
+}
+
 /** Requests the clocks of server and stream. */
 export interface Ping {
   type: 'ping';
@@ -133,7 +160,7 @@ export interface Pong {
   media_time: number;
 }
 
-export type Message = Hello | Header | Keyframe | Frames | End | StreamError | Ping | Pong;
+export type Message = Hello | Header | Keyframe | Frames | End | StreamError | SoundPacket | Ping | Pong;
 
 /** Texts of an enumeration by value. An open one reads values it does not know as its first. */
 export interface EnumValues {
@@ -147,9 +174,10 @@ export type Field =
   | { name: string; type: 'real'; min: number; max: number; required: boolean; fallback: number }
   | { name: string; type: 'bool'; appended?: true; required: boolean; fallback: boolean }
   | { name: string; type: 'text'; max: number; required: boolean; fallback: string }
+  | { name: string; type: 'bytes'; max: number; required: boolean; fallback: Uint8Array }
   | { name: string; type: 'reals'; min: number; max: number; length: number; required: boolean; fallback: number[] }
   | { name: string; type: 'enum'; values: EnumValues; appended?: true; required: boolean; fallback: string }
-  | { name: string; type: 'optional'; fields: readonly Field[]; required: boolean; fallback: null }
+  | { name: string; type: 'optional'; fields: readonly Field[]; appended?: true; required: boolean; fallback: null }
   | { name: string; type: 'optional_real'; min: number; max: number; appended: true; required: boolean; fallback: null }
   | { name: string; type: 'state' }
   | { name: string; type: 'frames' };
@@ -168,11 +196,18 @@ export interface MessageDescription {
 
 const stream_role_values: EnumValues = { names: ['subscribe', 'publish'], open: false };
 const end_reason_values: EnumValues = { names: ['other', 'finished', 'deleted', 'shutdown', 'replaced', 'slow'], open: true };
+const sound_codec_values: EnumValues = { names: ['other', 'opus'], open: true };
 const stream_error_code_values: EnumValues = { names: ['other', 'malformed', 'truncated', 'out_of_range', 'not_finite', 'too_large', 'unsupported', 'mismatch', 'missing', 'invalid_argument', 'not_found', 'conflict', 'throttled', 'unauthorized', 'internal'], open: true };
 
 const resume_point_fields: readonly Field[] = [
   { name: 'epoch', type: 'uint', max: 9007199254740991, required: true, fallback: 0 },
   { name: 'sequence', type: 'uint', max: 9007199254740991, required: true, fallback: 0 },
+];
+const sound_track_fields: readonly Field[] = [
+  { name: 'codec', type: 'enum', values: sound_codec_values, required: false, fallback: 'other' },
+  { name: 'rate', type: 'uint', max: 192000, required: false, fallback: 0 },
+  { name: 'channels', type: 'uint', max: 2, required: false, fallback: 0 },
+  { name: 'bitrate', type: 'uint', max: 4294967295, required: false, fallback: 0 },
 ];
 
 export const messages: readonly MessageDescription[] = [
@@ -184,6 +219,7 @@ export const messages: readonly MessageDescription[] = [
       { name: 'role', type: 'enum', values: stream_role_values, required: false, fallback: 'subscribe' },
       { name: 'resume', type: 'optional', fields: resume_point_fields, required: false, fallback: null },
       { name: 'take_over', type: 'bool', appended: true, required: false, fallback: false },
+      { name: 'sound', type: 'bool', appended: true, required: false, fallback: false },
     ],
   },
   {
@@ -203,6 +239,7 @@ export const messages: readonly MessageDescription[] = [
       { name: 'quantizers', type: 'reals', min: 1e-06, max: 1000000.0, length: 66, required: false, fallback: [] },
       { name: 'recovered', type: 'bool', required: false, fallback: false },
       { name: 'viseme_share', type: 'optional_real', min: 0, max: 1, appended: true, required: false, fallback: null },
+      { name: 'sound', type: 'optional', fields: sound_track_fields, appended: true, required: false, fallback: null },
     ],
   },
   {
@@ -237,6 +274,14 @@ export const messages: readonly MessageDescription[] = [
       { name: 'code', type: 'enum', values: stream_error_code_values, required: false, fallback: 'other' },
       { name: 'where', type: 'text', max: 1024, required: false, fallback: '' },
       { name: 'message', type: 'text', max: 4096, required: false, fallback: '' },
+    ],
+  },
+  {
+    type: 10,
+    name: 'sound',
+    fields: [
+      { name: 'media_time', type: 'uint', max: 9007199254740991, required: false, fallback: 0 },
+      { name: 'packet', type: 'bytes', max: 4000, required: true, fallback: new Uint8Array() },
     ],
   },
   {

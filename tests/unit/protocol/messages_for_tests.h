@@ -35,16 +35,30 @@ inline std::vector<TimedFrame> talking_face(std::size_t count, unsigned seed = 1
 
 /// One of each message, with nothing left at its default.
 inline std::vector<Message> one_of_each() {
-  Header header{1, "demo", "A demo \xC3\xA9", "sample", 7, 41, 1640, 1.7e12 + 0.25, 25.0, 40, {}, true, 0.7};
+  Header header{1,
+                "demo",
+                "A demo \xC3\xA9",
+                "sample",
+                7,
+                41,
+                1640,
+                1.7e12 + 0.25,
+                25.0,
+                40,
+                {},
+                true,
+                0.7,
+                SoundTrack{SoundCodec::opus, 48'000, 1, 20'000}};
   for (int i = 0; i < 66; ++i) header.quantizers.push_back(0.5 + i);
   Keyframe keyframe{41, 1640, talking_face(5).back().state};
   Frames frames{42, 1680, talking_face(10, 2)};
-  return {Hello{1, StreamRole::publish, ResumePoint{7, 41}, true},
+  return {Hello{1, StreamRole::publish, ResumePoint{7, 41}, true, true},
           header,
           keyframe,
           frames,
           End{EndReason::shutdown},
           StreamError{StreamErrorCode::out_of_range, "/frames/0/faps/99", "no such FAP"},
+          SoundPacket{1640, {0x18, 1, 2, 3}},
           Ping{5, 123.5},
           Pong{5, 123.5, 1.7e12, 99}};
 }

@@ -9,6 +9,7 @@
 
 #include "protocol/cpp/frame_codec.h"
 #include "protocol/cpp/json_codec.h"
+#include "protocol/cpp/opus_packet.h"
 #include "protocol/cpp/packed_codec.h"
 #include "protocol/cpp/quantizers.h"
 #include "protocol/cpp/rig_document.h"
@@ -140,10 +141,32 @@ TEST(Vectors, PackedRefused_AreNamedByCodeAndPointer) {
   }
 }
 
+TEST(Vectors, Sound_BinaryAndJson_MeanTheSame) {
+  const json vectors = json::parse(read("sound.json"));
+  std::size_t packets = 0;
+  for (const json& vector : vectors.at("messages")) {
+    const std::string name = vector.at("name");
+    const Bytes bytes = from_hex(vector.at("binary"));
+    const auto from_text = decode_json(vector.at("json").dump());
+    ASSERT_TRUE(from_text.ok()) << name << ": " << from_text.error().message;
+    const auto from_bytes = FrameDecoder().decode(bytes);
+    ASSERT_TRUE(from_bytes.ok()) << name << ": " << from_bytes.error().message;
+    EXPECT_EQ(*from_bytes, *from_text) << name;
+    EXPECT_EQ(FrameEncoder().encode(*from_text), bytes) << name;
+    EXPECT_EQ(json::parse(encode_json(*from_text)), vector.at("json")) << name;
+    const auto* sound = std::get_if<SoundPacket>(&*from_bytes);
+    if (sound == nullptr) continue;
+    ++packets;
+    EXPECT_EQ(opus_packet_ms(sound->packet), vector.at("lasts").get<double>()) << name;
+  }
+  EXPECT_EQ(packets, 4U);
+}
+
 TEST(Vectors, Refused_BinaryAndJson_AreNamedByCodeAndPointer) {
-  const json vectors = json::parse(read("refused.json"));
-  ASSERT_FALSE(vectors.at("refused").empty());
-  for (const json& vector : vectors.at("refused")) {
+  json all = json::parse(read("refused.json")).at("refused");
+  for (const json& vector : json::parse(read("sound.json")).at("refused")) all.push_back(vector);
+  ASSERT_GT(all.size(), 20U);
+  for (const json& vector : all) {
     const std::string name = vector.at("name");
     FrameDecoder decoder;
     ASSERT_TRUE(decoder.decode(FrameEncoder().encode(Keyframe{})).ok());

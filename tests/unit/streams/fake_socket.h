@@ -136,15 +136,18 @@ struct FakeClient {
     EXPECT_TRUE(stream->admit(connection));
     connection->attach(socket);
   }
-  FakeClient(const std::shared_ptr<Stream>& stream, StreamRole role) : FakeClient(stream) { hello(role); }
+  FakeClient(const std::shared_ptr<Stream>& stream, StreamRole role, bool sound = false) : FakeClient(stream) {
+    hello(role, sound);
+  }
   /// As net does when a socket is gone: a stream and its connections hold each other until then.
   ~FakeClient() { leave(); }
   FakeClient(const FakeClient&) = delete;
   FakeClient& operator=(const FakeClient&) = delete;
 
-  void hello(StreamRole role) {
+  void hello(StreamRole role, bool sound = false) {
     Hello hello;
     hello.role = role;
+    hello.sound = sound;
     connection->receive(encode_json(hello), false);
   }
   void leave() {

@@ -15,7 +15,7 @@ std::pair<Header, std::size_t> as_read(double quantizer_scale) {
   stream.id = "demo";
   stream.epoch = 1;
   stream.settings.quantizer_scale = quantizer_scale;
-  const auto bytes = FrameEncoder().encode(connection_header(stream, 41, 1640, 25.0, false));
+  const auto bytes = FrameEncoder().encode(connection_header(stream, 41, 1640, 25.0, false, false));
   const auto message = FrameDecoder().decode(bytes);
   EXPECT_TRUE(message.ok());
   return {std::get<Header>(*message), bytes.size()};

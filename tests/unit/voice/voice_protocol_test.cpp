@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "server/voice/base64.h"
+#include "core/json/base64.h"
 
 namespace semblante::voice {
 namespace {

@@ -170,6 +170,7 @@ export function headerOf(given: Partial<Header>): Header {
     quantizers: [],
     recovered: false,
     viseme_share: null,
+    sound: null,
     ...given,
   };
 }

@@ -2,6 +2,7 @@ import { describe, expect, it } from 'vitest';
 import {
   decodeJson,
   encodeJson,
+  opusPacketMs,
   ProtocolError,
   quantize,
   quantizersOf,
@@ -18,7 +19,7 @@ interface Vector {
   json: Record<string, unknown>;
 }
 const vectors = (vectorJson('messages.json') as { messages: Vector[] }).messages;
-const faceless = vectors.filter(({ json }) => !hasFace(json as { type: string }));
+
 const appended = vectorJson('appended_fields.json') as {
   messages: Vector[];
   reads_as_absent: string;
@@ -31,7 +32,10 @@ interface Refused {
   code: string;
   where: string;
 }
-const refused = (vectorJson('refused.json') as { refused: Refused[] }).refused;
+const sound = vectorJson('sound.json') as { messages: (Vector & { lasts?: number })[]; refused: Refused[] };
+const refused = [...(vectorJson('refused.json') as { refused: Refused[] }).refused, ...sound.refused];
+
+const faceless = [...vectors.filter(({ json }) => !hasFace(json as { type: string })), ...sound.messages.filter(({ json }) => json['type'] === 'sound')];
 
 function errorOf(run: () => unknown): ProtocolError {
   try {
@@ -95,7 +99,7 @@ describe('decodeMessage', () => {
   it('Decode_BytesOfALaterVersion_AreSkipped', () => {
     for (const { binary, json } of faceless) {
       const appends = json['type'] === 'header' || json['type'] === 'hello'; // a field of their own
-      const unknown = appends ? '00010203' : '010203';
+      const unknown = appends ? '0000010203' : '010203';
       expect(decodeMessage(fromHex(binary + unknown))).toEqual(decodeMessage(fromHex(binary)));
     }
   });
@@ -109,6 +113,16 @@ describe('golden messages', () => {
       expect(toHex(encodeMessage(fromText))).toBe(binary);
     }
     expect(JSON.parse(encodeJson(fromText))).toEqual(json);
+  });
+});
+
+describe('golden messages about sound', () => {
+  it.each(sound.messages)('$name', ({ binary, json, lasts }) => {
+    const fromText = decodeJson(JSON.stringify(json));
+    expect(decodeMessage(fromHex(binary))).toEqual(fromText);
+    expect(toHex(encodeMessage(fromText))).toBe(binary);
+    expect(JSON.parse(encodeJson(fromText))).toEqual(json);
+    if (fromText.type === 'sound') expect(opusPacketMs(fromText.packet)).toBe(lasts);
   });
 });
 

@@ -1,5 +1,6 @@
 import { ByteReader, ByteWriter, EndOfBytes, VarintTooLarge } from '../../../../protocol/ts/byte_io.ts';
 import { isAppended, limits, messages, type Field, type Message } from '../../../../protocol/ts/messages.ts';
+import { opusPacketMs } from '../../../../protocol/ts/opus_packet.ts';
 import { ProtocolError } from '../../../../protocol/ts/protocol_error.ts';
 
 type Values = Record<string, unknown>;
@@ -54,6 +55,12 @@ function write(to: ByteWriter, field: Field, value: unknown): void {
       to.varint(bytes.length);
       return to.append(bytes);
     }
+    case 'bytes': {
+      const bytes = value as Uint8Array;
+      check(bytes.length <= field.max, field.name);
+      to.varint(bytes.length);
+      return to.append(bytes);
+    }
     case 'reals': {
       const values = value as number[];
       check(values.length === 0 || values.length === field.length, field.name);
@@ -98,6 +105,9 @@ export function decodeMessage(bytes: Uint8Array): Message {
   const from = new ByteReader(bytes.subarray(1));
   const values: Values = { type: description.name };
   for (const field of description.fields) values[field.name] = read(from, field, '');
+  if (description.name === 'sound' && opusPacketMs(values.packet as Uint8Array) === null) {
+    throw new ProtocolError('malformed', '/packet', 'is no Opus packet');
+  }
   return values as unknown as Message; // bytes after the last field belong to a later version
 }
 
@@ -135,6 +145,11 @@ function readValue(from: ByteReader, field: Field, where: string): unknown {
       } catch {
         throw new ProtocolError('malformed', where, 'must be UTF-8');
       }
+    }
+    case 'bytes': {
+      const size = from.varint();
+      if (size > field.max) throw new ProtocolError('too_large', where, `must not exceed ${field.max} bytes`);
+      return from.take(size);
     }
     case 'reals': {
       const count = from.varint();

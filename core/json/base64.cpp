@@ -1,8 +1,8 @@
-#include "server/voice/base64.h"
+#include "core/json/base64.h"
 
 #include <array>
 
-namespace semblante::voice {
+namespace semblante {
 namespace {
 
 constexpr std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -52,4 +52,4 @@ std::optional<std::vector<std::uint8_t>> from_base64(std::string_view text) {
   return bytes;
 }
 
-}  // namespace semblante::voice
+}  // namespace semblante

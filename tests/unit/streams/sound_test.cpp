@@ -1,0 +1,234 @@
+#include <gtest/gtest.h>
+
+#include "protocol/cpp/json_codec.h"
+#include "server/streams/player.h"
+#include "server/streams/stream.h"
+#include "server/streams/stream_header.h"
+#include "tests/unit/streams/fake_socket.h"
+#include "tests/unit/streams/feeding.h"
+
+/// The sound of a stream: who gets it, when, and what a slow listener loses.
+namespace semblante::streams {
+namespace {
+
+using std::chrono::milliseconds;
+using Bytes = std::vector<std::uint8_t>;
+
+const Bytes packet = {0x18, 1, 2, 3};
+
+std::vector<SoundPacket> sounds_of(const std::vector<Message>& messages) {
+  std::vector<SoundPacket> sounds;
+  for (const auto& message : messages)
+    if (const auto* sound = std::get_if<SoundPacket>(&message)) sounds.push_back(*sound);
+  return sounds;
+}
+
+std::size_t count_frames(const std::vector<Message>& messages) {
+  std::size_t count = 0;
+  for (const auto& message : messages)
+    if (const auto* frames = std::get_if<Frames>(&message)) count += frames->frames.size();
+  return count;
+}
+
+class SoundTest : public ::testing::Test {
+ protected:
+  SoundTest() {
+    limits_.pending_messages = 4;
+    stream_ = std::make_shared<Stream>(unbatched_stream(), limits_);
+    const auto ticket = stream_->begin_playing(25.0, false);
+    EXPECT_TRUE(ticket);
+    ticket_ = ticket ? *ticket : 0;
+    began_ = Stream::Clock::now();
+  }
+  std::shared_ptr<FakeClient> connect(bool sound) {
+    return std::make_shared<FakeClient>(stream_, StreamRole::subscribe, sound);
+  }
+  void sound(int ms) { stream_->publish_sound(ticket_, began_ + milliseconds(ms), packet); }
+  void frame(int ms, std::int16_t level) {
+    EXPECT_TRUE(stream_->publish_playing(ticket_, began_ + milliseconds(ms), frame_with(level)));
+  }
+
+  StreamLimits limits_;
+  std::shared_ptr<Stream> stream_;
+  Stream::Ticket ticket_ = 0;
+  Stream::Clock::time_point began_;  ///< after the stream's own beginning
+};
+
+TEST_F(SoundTest, Header_NamesTheSoundForThoseWhoAsk) {
+  const auto listener = connect(true)->take_all();
+  const auto viewer = connect(false)->take_all();
+  ASSERT_FALSE(listener.empty());
+  ASSERT_FALSE(viewer.empty());
+  EXPECT_EQ(std::get<Header>(listener[0]).sound, stream_sound);
+  EXPECT_EQ(std::get<Header>(viewer[0]).sound, std::nullopt);
+}
+
+TEST_F(SoundTest, Sound_GoesToListenersOnly) {
+  const auto listener = connect(true);
+  const auto viewer = connect(false);
+  listener->take_all();
+  viewer->take_all();
+  sound(0);
+  frame(0, 5);
+  sound(60);
+  const auto heard = listener->take_all();
+  const auto sounds = sounds_of(heard);
+  ASSERT_EQ(sounds.size(), 2U);
+  EXPECT_EQ(sounds[0].packet, packet);
+  EXPECT_EQ(sounds[1].media_time - sounds[0].media_time, 60U) << "on the clock of the frames";
+  EXPECT_EQ(count_frames(heard), 1U);
+  ASSERT_TRUE(std::holds_alternative<Frames>(heard[1]));
+  EXPECT_EQ(std::get<Frames>(heard[1]).media_time, sounds[0].media_time);
+  EXPECT_EQ(viewer->take_all().size(), 1U) << "the frame alone";
+  EXPECT_EQ(stream_->counts().sound_packets, 2U);
+  EXPECT_EQ(stream_->counts().sound_sent, 2U);
+}
+
+TEST_F(SoundTest, Viewer_GetsTheSameBytesAsWithoutSound) {
+  const auto listener = connect(true);
+  const auto viewer = connect(false);
+  viewer->take_all();
+  frame(0, 5);
+  const auto before = viewer->socket->take_payloads();
+  sound(20);
+  frame(40, 5);
+  const auto after = viewer->socket->take_payloads();
+  ASSERT_EQ(before.size(), 1U);
+  ASSERT_EQ(after.size(), 1U);
+}
+
+TEST_F(SoundTest, LateListener_HearsFromNowOn) {
+  const auto first = connect(true);
+  first->take_all();
+  sound(0);
+  const auto late = connect(true);
+  EXPECT_TRUE(sounds_of(late->take_all()).empty());
+  sound(60);
+  EXPECT_EQ(sounds_of(late->take_all()).size(), 1U);
+}
+
+TEST_F(SoundTest, SlowListener_LosesSoundBeforeFrames) {
+  const auto slow = connect(true);
+  slow->take_all();
+  slow->socket->stop_reading();
+  for (int k = 0; k < 4; ++k) {
+    frame(60 * k, static_cast<std::int16_t>(k + 1));
+    sound(60 * k);
+  }
+  EXPECT_EQ(slow->socket->waiting(), 4U) << "the four frames that the limit allows";
+  EXPECT_EQ(stream_->counts().sound_dropped, 4U);
+  EXPECT_EQ(stream_->counts().messages_replaced, 0U);
+  slow->socket->read_again(*slow->connection);
+  auto messages = slow->take_all();
+  EXPECT_EQ(count_frames(messages), 4U);
+  EXPECT_TRUE(sounds_of(messages).empty());
+  sound(300);
+  EXPECT_EQ(sounds_of(slow->take_all()).size(), 1U) << "it hears again as soon as it reads again";
+}
+
+TEST_F(SoundTest, SoundThatWaits_DoesNotPutAListenerBehind) {
+  const auto slow = connect(true);
+  slow->take_all();
+  slow->socket->stop_reading();
+  for (int k = 0; k < 50; ++k) sound(60 * k);
+  EXPECT_EQ(slow->socket->waiting(), 1U) << "one packet, which found the socket idle";
+  frame(3000, 7);
+  slow->socket->read_again(*slow->connection);
+  EXPECT_EQ(count_frames(slow->take_all()), 1U) << "the frame itself, no keyframe in its place";
+  EXPECT_EQ(stream_->counts().messages_replaced, 0U);
+}
+
+TEST_F(SoundTest, NobodyListens_NothingIsQueued) {
+  const auto viewer = connect(false);
+  viewer->take_all();
+  for (int k = 0; k < 50; ++k) sound(60 * k);
+  EXPECT_TRUE(viewer->take_all().empty());
+  EXPECT_EQ(stream_->counts().sound_packets, 50U);
+  EXPECT_EQ(stream_->counts().sound_dropped, 0U);
+}
+
+TEST_F(SoundTest, ListenerThatLeaves_IsNotCounted) {
+  const auto listener = connect(true);
+  listener->take_all();
+  listener->leave();
+  sound(0);
+  EXPECT_EQ(stream_->counts().sound_sent + stream_->counts().sound_dropped, 0U);
+}
+
+TEST_F(SoundTest, ReplacedSource_IsHeardNoMore) {
+  const auto listener = connect(true);
+  listener->take_all();
+  ASSERT_TRUE(stream_->begin_playing(25.0, true));
+  sound(0);
+  EXPECT_TRUE(sounds_of(listener->take_all()).empty());
+}
+
+TEST_F(SoundTest, SoundOfAClient_IsRefused) {
+  const auto client = connect(true);
+  client->take_all();
+  client->connection->receive(encode_json(Message(SoundPacket{1, packet})), false);
+  const auto answers = client->take_all();
+  ASSERT_EQ(answers.size(), 1U);
+  EXPECT_EQ(std::get<StreamError>(answers[0]).code, StreamErrorCode::invalid_argument);
+}
+
+/// Three packets of 60 ms, the second of which is silent.
+class Speaking : public FrameSource {
+ public:
+  [[nodiscard]] std::string_view kind() const override { return "speaking"; }
+  [[nodiscard]] std::string name() const override { return ""; }
+  [[nodiscard]] double duration() const override { return 400.0; }
+  [[nodiscard]] FaceFrame frame_at(double, double) const override { return {}; }
+  [[nodiscard]] std::span<const SoundPacket> sound() const override { return sound_; }
+  [[nodiscard]] std::size_t bytes() const override { return 1000; }
+
+ private:
+  const std::vector<SoundPacket> sound_ = {{0, packet}, {120, packet}};
+};
+
+class SoundPlayerTest : public SoundTest {
+ protected:
+  Player player(double from) {
+    PlayOptions options;
+    options.from = from;
+    return {"1", stream_, ticket_, std::make_shared<Speaking>(), options, began_};
+  }
+};
+
+TEST_F(SoundPlayerTest, Packets_AreSentWhenTheyAreDue) {
+  const auto listener = connect(true);
+  listener->take_all();
+  auto plays = player(0.0);
+  plays.play(began_);
+  EXPECT_EQ(sounds_of(listener->take_all()).size(), 1U);
+  for (int ms = 40; ms < 120; ms += 40) plays.play(began_ + milliseconds(ms));
+  EXPECT_TRUE(sounds_of(listener->take_all()).empty()) << "nothing is sent for silence";
+  EXPECT_EQ(plays.next(), began_ + milliseconds(120));
+  plays.play(began_ + milliseconds(120));
+  const auto heard = listener->take_all();
+  ASSERT_EQ(sounds_of(heard).size(), 1U);
+  ASSERT_TRUE(std::holds_alternative<SoundPacket>(heard[0])) << "before the frame of its time";
+  EXPECT_EQ(std::get<Frames>(heard[1]).media_time, std::get<SoundPacket>(heard[0]).media_time);
+}
+
+TEST_F(SoundPlayerTest, LatePlayer_LeavesOutWhatIsOver) {
+  const auto listener = connect(true);
+  listener->take_all();
+  auto plays = player(0.0);
+  plays.play(began_ + milliseconds(250));
+  const auto sounds = sounds_of(listener->take_all());
+  ASSERT_EQ(sounds.size(), 1U) << "the packet of 120 ms, not that of 0";
+}
+
+TEST_F(SoundPlayerTest, PlayFromLater_HearsFromThere) {
+  const auto listener = connect(true);
+  listener->take_all();
+  auto plays = player(100.0);
+  plays.play(began_);
+  EXPECT_TRUE(sounds_of(listener->take_all()).empty());
+  plays.play(began_ + milliseconds(20));
+  EXPECT_EQ(sounds_of(listener->take_all()).size(), 1U);
+}
+
+}  // namespace
+}  // namespace semblante::streams
