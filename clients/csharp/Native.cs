@@ -21,7 +21,7 @@ public struct TimedFrame {
     public Frame Frame;
 }
 
-public enum EventType : uint { None, State, Connect, Close, Header, Keyframe, Frames, Clock, Refused, Fault, End }
+public enum EventType : uint { None, State, Connect, Close, Header, Keyframe, Frames, Clock, Refused, Fault, End, Sound }
 
 public enum StreamState : uint { Closed, Connecting, Open, Waiting }
 
@@ -69,6 +69,7 @@ static unsafe class Native {
         public ulong Seed;
         public double PingInterval, SilenceLimit, Batch;
         public ulong ResumeEpoch, ResumeSequence;
+        public uint Sound, Reserved;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -77,6 +78,9 @@ static unsafe class Native {
         public ulong Epoch, Sequence;
         public double MediaTime, RoundTrip, ServerOffset;
         public Error Error;
+        public double Duration;
+        public byte* Packet;
+        public uint PacketSize, Reserved;
     }
 
     [StructLayout(LayoutKind.Sequential)]

@@ -19,7 +19,8 @@ export const streamOptionsLayout = {
   seed: 32,
   ping_interval: 40,
   silence_limit: 48,
-  size: 80,
+  sound: 80,
+  size: 88,
 } as const;
 
 export const eventLayout = {
@@ -33,7 +34,10 @@ export const eventLayout = {
   round_trip: 48,
   server_offset: 56,
   error: 64,
-  size: 416,
+  duration: 416,
+  packet: 424,
+  packet_size: 428,
+  size: 440,
 } as const;
 
 export const headerLayout = {
@@ -49,7 +53,11 @@ export const headerLayout = {
   title: 68,
   model: 72,
   quantizer: 76,
-  size: 80,
+  sound_codec: 80,
+  sound_rate: 84,
+  sound_channels: 88,
+  sound_bitrate: 92,
+  size: 96,
 } as const;
 
 export const clockLayout = { steps: 4, media_time: 8, uncertainty: 16, drift: 24, round_trip: 32, server_offset: 40, size: 48 } as const;

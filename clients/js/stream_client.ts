@@ -8,6 +8,7 @@ import {
   type Frames,
   type Header,
   type Keyframe,
+  type SoundCodec,
   type StreamError,
   type StreamErrorCode,
   type StreamRole,
@@ -40,8 +41,18 @@ export interface StreamEvents {
   /** A message of the server could not be read, or it does not answer. A new connection follows. */
   fault: ProtocolError;
   clock: ClockSample;
+  /** A packet of the sound, if it was asked for. */
+  sound: SoundPacket;
   /** A message of any kind was received. */
   message: void;
+}
+
+/** A packet of the header's codec. Times in ms. */
+export interface SoundPacket {
+  /** When it begins to be heard, on the clock of the frames. */
+  mediaTime: number;
+  duration: number;
+  packet: Uint8Array<ArrayBuffer>;
 }
 
 /** One measurement of the server's clock. Times in ms. */
@@ -57,6 +68,8 @@ export interface StreamOptions {
   role?: StreamRole;
   /** For a publisher: replace the current publisher. Default false. */
   takeOver?: boolean;
+  /** For a subscriber: ask for the sound of the stream too. Default false. */
+  sound?: boolean;
   /**
    * For a server that asks for tokens, from a page that is not its own: sent as a subprotocol, because a browser's
    * WebSocket carries no header.
@@ -83,6 +96,7 @@ const maxBufferedBytes = 256 * 1024;
 // The enumerations of semblante.h, in order.
 const states: readonly ConnectionState[] = ['closed', 'connecting', 'open', 'waiting'];
 const endReasons: readonly EndReason[] = ['other', 'finished', 'deleted', 'shutdown', 'replaced', 'slow'];
+const soundCodecs: readonly SoundCodec[] = ['other', 'opus'];
 const refusals: readonly StreamErrorCode[] = [
   'other',
   'malformed',
@@ -113,7 +127,7 @@ const faults: readonly StreamErrorCode[] = [
   'internal',
   'other',
 ];
-const eventType = { state: 1, connect: 2, close: 3, header: 4, keyframe: 5, frames: 6, clock: 7, refused: 8, fault: 9, end: 10 } as const;
+const eventType = { state: 1, connect: 2, close: 3, header: 4, keyframe: 5, frames: 6, clock: 7, refused: 8, fault: 9, end: 10, sound: 11 } as const;
 const resumed = 1;
 const ok = 0;
 
@@ -172,6 +186,11 @@ export class StreamClock {
   /** The stream's clock at the client's time `local`. */
   at(local: number): number {
     return this.read(clockLayout.media_time, local);
+  }
+
+  /** The stream's clock now. */
+  get mediaTime(): number {
+    return this.at(this.now());
   }
 
   /** Bound of the estimate's error. */
@@ -238,6 +257,7 @@ export class StreamClient extends Emitter<StreamEvents> {
     this.options = {
       role: 'subscribe',
       takeOver: false,
+      sound: false,
       WebSocket: globalThis.WebSocket,
       now: () => performance.now(),
       backoff: { first: 250, longest: 10_000 },
@@ -309,7 +329,7 @@ export class StreamClient extends Emitter<StreamEvents> {
 
   private made(runtime: Runtime): StreamMemory {
     if (this.memory) return this.memory;
-    const { role, takeOver, backoff, pingInterval } = this.options;
+    const { role, takeOver, sound, backoff, pingInterval } = this.options;
     const memory = new StreamMemory(runtime, (view, at) => {
       const of = streamOptionsLayout;
       view.setUint32(at + of.role, role === 'publish' ? 1 : 0, true);
@@ -319,6 +339,7 @@ export class StreamClient extends Emitter<StreamEvents> {
       view.setUint32(at + of.seed, Math.random() * 4294967296, true);
       view.setUint32(at + of.seed + 4, Math.random() * 4294967296, true);
       view.setFloat64(at + of.ping_interval, pingInterval || -1, true);
+      view.setUint32(at + of.sound, sound ? 1 : 0, true);
     });
     this.memory = memory;
     this.release = runtime.owns(this, () => memory.release());
@@ -378,6 +399,8 @@ export class StreamClient extends Emitter<StreamEvents> {
       case eventType.keyframe:
       case eventType.frames:
         return this.takeFrames(memory, type === eventType.keyframe);
+      case eventType.sound:
+        return this.takeSound(memory);
       case eventType.clock:
         return this.emit('clock', {
           roundTrip: view.getFloat64(event + eventLayout.round_trip, true),
@@ -447,6 +470,7 @@ export class StreamClient extends Emitter<StreamEvents> {
     const real = (member: number): number => view.getFloat64(header + member, true);
     const text = (member: number): string => runtime.text(view.getUint32(header + member, true));
     const share = real(headerLayout.viseme_share);
+    const count = (member: number): number => view.getUint32(header + member, true);
     const quantizer = view.getUint32(header + headerLayout.quantizer, true);
     this.steps = standardQuantizers.map((_, fap) => (fap < 3 ? 1 : view.getFloat64(quantizer + fap * 8, true)));
     this.header = {
@@ -464,8 +488,27 @@ export class StreamClient extends Emitter<StreamEvents> {
       quantizers: Array.from(this.steps.subarray(3)),
       recovered: view.getUint32(header + headerLayout.resumed, true) === resumed,
       viseme_share: Number.isNaN(share) ? null : share,
+      sound:
+        count(headerLayout.sound_rate) === 0
+          ? null
+          : {
+              codec: soundCodecs[count(headerLayout.sound_codec)] ?? 'other',
+              rate: count(headerLayout.sound_rate),
+              channels: count(headerLayout.sound_channels),
+              bitrate: count(headerLayout.sound_bitrate),
+            },
     };
     this.emit('header', this.header);
+  }
+
+  private takeSound({ runtime, event }: StreamMemory): void {
+    const { view } = runtime;
+    const at = view.getUint32(event + eventLayout.packet, true);
+    this.emit('sound', {
+      mediaTime: view.getFloat64(event + eventLayout.media_time, true),
+      duration: view.getFloat64(event + eventLayout.duration, true),
+      packet: runtime.bytes.slice(at, at + view.getUint32(event + eventLayout.packet_size, true)) as Uint8Array<ArrayBuffer>,
+    });
   }
 
   private takeFrames({ runtime, stream, event, result }: StreamMemory, isKeyframe: boolean): void {

@@ -6,6 +6,7 @@
 #include "clients/runtime/ring.h"
 #include "clients/runtime/semblante.h"
 #include "core/types/result.h"
+#include "protocol/cpp/messages.h"
 
 namespace semblante::runtime {
 
@@ -17,6 +18,7 @@ struct Event {
   std::uint64_t epoch = 0, sequence = 0;
   double media_time = 0, round_trip = 0, server_offset = 0;
   std::unique_ptr<Error> error;
+  std::unique_ptr<SoundPacket> sound;
 };
 
 /// The events that the caller has not taken yet. Bounded: events that only inform give way to those that ask for
@@ -39,7 +41,7 @@ class Events {
  private:
   static bool only_informs(semblante_event_type type) {
     return type == SEMBLANTE_EVENT_KEYFRAME || type == SEMBLANTE_EVENT_FRAMES || type == SEMBLANTE_EVENT_CLOCK ||
-           type == SEMBLANTE_EVENT_REFUSED;
+           type == SEMBLANTE_EVENT_REFUSED || type == SEMBLANTE_EVENT_SOUND;
   }
   void drop_one() {
     std::size_t oldest = 0;

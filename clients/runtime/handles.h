@@ -7,6 +7,7 @@
 struct semblante_stream {
   explicit semblante_stream(const semblante::runtime::StreamOptions& options) : it(options) {}
   semblante::runtime::Stream it;
+  semblante::runtime::Event told;  ///< the newest event that was taken: the caller may read its packet
 };
 
 struct semblante_player {

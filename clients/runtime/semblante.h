@@ -239,6 +239,8 @@ typedef struct semblante_stream_options {
   double batch;         /* publisher: frames of this many ms travel in one message; 0: each publish is a message */
   /* Resume point of the first connection: 0, 0 for none. */
   uint64_t resume_epoch, resume_sequence;
+  uint32_t sound;    /* subscriber: 1 asks for the sound of the stream, whose packets are SOUND events */
+  uint32_t reserved; /* 0 */
 } semblante_stream_options;
 
 typedef enum semblante_stream_state {
@@ -261,7 +263,9 @@ typedef enum semblante_event_type {
   SEMBLANTE_EVENT_REFUSED = 8,  /* the server refused a message: `code` (semblante_refusal), `error` */
   SEMBLANTE_EVENT_FAULT = 9,    /* a message of the server cannot be read, or it is silent: `code` (semblante_result),
                                    `error`. A new connection follows */
-  SEMBLANTE_EVENT_END = 10      /* the server ends the connection: `code` (semblante_end_reason), `is_final` */
+  SEMBLANTE_EVENT_END = 10,     /* the server ends the connection: `code` (semblante_end_reason), `is_final` */
+  SEMBLANTE_EVENT_SOUND = 11    /* a packet of sound, if it was asked for: `media_time` at which it begins to be heard,
+                                   `duration`, `packet`, `packet_size` */
 } semblante_event_type;
 
 /* Of SEMBLANTE_EVENT_HEADER. */
@@ -312,7 +316,15 @@ typedef struct semblante_event {
   double round_trip;    /* ms */
   double server_offset; /* ms: the server's wall clock (since 1970) minus `now` */
   semblante_error error;
+  double duration;       /* ms */
+  const uint8_t* packet; /* of the codec of semblante_header, valid until the next event is taken; else null */
+  uint32_t packet_size;  /* bytes, at most 4000 */
+  uint32_t reserved;
 } semblante_event;
+
+/* SoundCodec of the protocol. */
+#define SEMBLANTE_SOUND_OTHER 0u /* of a later version: the packets mean nothing to this one */
+#define SEMBLANTE_SOUND_OPUS 1u  /* RFC 6716, without container; there is no pre-skip */
 
 /* The newest header. Texts are zero-terminated UTF-8, valid until the next header. */
 typedef struct semblante_header {
@@ -329,6 +341,10 @@ typedef struct semblante_header {
   const char* title;       /* for display; may be empty */
   const char* model;       /* id of the suggested model; may be empty */
   const double* quantizer; /* 69: FAP units per level by FAP number; entries 0..2 unused */
+  uint32_t sound_codec;    /* SEMBLANTE_SOUND_*; of this and the next the meaning is nothing where sound_rate is 0 */
+  uint32_t sound_rate;     /* samples per second; 0: the stream has no sound, or it was not asked for */
+  uint32_t sound_channels;
+  uint32_t sound_bitrate; /* nominal, bit/s; 0: unknown */
 } semblante_header;
 
 /* What is known of the stream's clock. */
@@ -368,7 +384,7 @@ double semblante_stream_wake_time(const semblante_stream* stream);
 /* The next message to send, valid until the next call with this stream; null: none. At most 256 KiB wait. */
 const uint8_t* semblante_stream_take_bytes(semblante_stream* stream, size_t* size);
 /* The next event; 0: none. Take them after each call: at most 64 wait, and beyond that the oldest of KEYFRAME, FRAMES,
- * CLOCK and REFUSED are dropped. `event->size` must be set. */
+ * CLOCK, REFUSED and SOUND are dropped. `event->size` must be set. */
 uint32_t semblante_stream_next_event(semblante_stream* stream, semblante_event* event);
 /* The frames of the newest KEYFRAME or FRAMES event, with absolute media times, valid until the next message is
  * received; *count 0 and null if there are none. Not const: frames are converted when they are asked for. */

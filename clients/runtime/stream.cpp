@@ -107,6 +107,7 @@ void Stream::opened(double now) {
   hello.role = options_.role;
   hello.resume = resume_;
   hello.take_over = options_.take_over;
+  hello.sound = options_.sound && options_.role == StreamRole::subscribe;
   send(hello);
 }
 
@@ -186,6 +187,8 @@ void Stream::take(const Message& message, double now) {
   } else if (const auto* frames = std::get_if<Frames>(&message)) {
     newest_ = *frames;
     take_frames(now, false);
+  } else if (const auto* sound = std::get_if<SoundPacket>(&message)) {
+    take_sound(*sound);
   } else if (const auto* pong = std::get_if<Pong>(&message)) {
     take_pong(*pong, now);
   } else if (const auto* end = std::get_if<End>(&message)) {
@@ -241,6 +244,15 @@ void Stream::take_frames(double now, bool is_keyframe) {
   Event event = event_of(is_keyframe ? SEMBLANTE_EVENT_KEYFRAME : SEMBLANTE_EVENT_FRAMES);
   event.sequence = newest_.sequence;
   event.media_time = static_cast<double>(newest_.media_time) + newest_.frames.back().time;
+  events_.push(std::move(event));
+}
+
+void Stream::take_sound(const SoundPacket& sound) {
+  unanswered_since_ = never;
+  if (!greeted_ || !options_.sound) return;
+  Event event = event_of(SEMBLANTE_EVENT_SOUND);
+  event.media_time = static_cast<double>(sound.media_time);
+  event.sound = std::make_unique<SoundPacket>(sound);
   events_.push(std::move(event));
 }
 

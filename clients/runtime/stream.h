@@ -32,6 +32,7 @@ struct StreamOptions {
   double batch = 0;               ///< ms
   std::size_t max_message_bytes = max_binary_message_bytes;
   std::optional<ResumePoint> resume;
+  bool sound = false;
   /// Writes a message in another form than the binary one, for programs that also speak JSON; null: binary. Such a
   /// program reads messages itself and gives them to `take`.
   void (*encode)(const Message&, const QuantizerSteps&, std::vector<std::uint8_t>& to) = nullptr;
@@ -101,6 +102,7 @@ class Stream {
   void add_to_batch(const TimedFrame& frame, std::uint64_t media_time, double now);
   void take_header(const Header& header, double now);
   void take_frames(double now, bool is_keyframe);
+  void take_sound(const SoundPacket& sound);
   void take_pong(const Pong& pong, double now);
   void take_end(const End& end, double now);
 

@@ -5,6 +5,7 @@
 #include "clients/runtime/border.h"
 #include "clients/runtime/handles.h"
 #include "clients/runtime/times.h"
+#include "protocol/cpp/opus_packet.h"
 
 namespace semblante::runtime {
 namespace {
@@ -32,6 +33,7 @@ StreamOptions to_options(const semblante_stream_options& from) {
   options.ping_interval = or_usual(from.ping_interval, options.ping_interval, 0);
   options.silence_limit = or_usual(from.silence_limit, options.silence_limit, never);
   options.batch = from.batch;
+  options.sound = from.sound != 0;
   if (from.resume_epoch != 0) options.resume = ResumePoint{from.resume_epoch, from.resume_sequence};
   return options;
 }
@@ -51,6 +53,11 @@ semblante_event to_event(const Event& from) {
   if (from.error) {
     copy_text(event.error.where, from.error->where);
     copy_text(event.error.message, from.error->message);
+  }
+  if (from.sound) {
+    event.duration = opus_packet_ms(from.sound->packet).value_or(0);
+    event.packet = from.sound->packet.data();
+    event.packet_size = static_cast<uint32_t>(from.sound->packet.size());
   }
   return event;
 }
@@ -125,7 +132,8 @@ const uint8_t* semblante_stream_take_bytes(semblante_stream* stream, size_t* siz
 uint32_t semblante_stream_next_event(semblante_stream* stream, semblante_event* event) {
   if (stream == nullptr || event == nullptr || event->size < sizeof(event->size) || stream->it.events().empty())
     return 0;
-  return write_struct(to_event(stream->it.events().take()), event) ? 1 : 0;
+  stream->told = stream->it.events().take();
+  return write_struct(to_event(stream->told), event) ? 1 : 0;
 }
 
 const semblante_timed_frame* semblante_stream_frames(semblante_stream* stream, uint32_t* count) {
@@ -161,6 +169,12 @@ semblante_result semblante_stream_header(const semblante_stream* stream, semblan
   made.title = from->title.c_str();
   made.model = from->model.c_str();
   made.quantizer = stream->it.steps().data();
+  if (from->sound) {
+    made.sound_codec = static_cast<uint32_t>(from->sound->codec);
+    made.sound_rate = from->sound->rate;
+    made.sound_channels = from->sound->channels;
+    made.sound_bitrate = from->sound->bitrate;
+  }
   return write_struct(made, header) ? SEMBLANTE_OK : SEMBLANTE_INVALID_ARGUMENT;
 }
 

@@ -44,6 +44,7 @@ async function main(root: HTMLElement): Promise<void> {
   face.stream = stream;
   face.setAttribute('alt', `Animated face, stream ${stream}`);
   face.setAttribute('orbit', 'free');
+  face.sound = true;
   face.tabIndex = 0;
 
   const bars = document.createElement('span');

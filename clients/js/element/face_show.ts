@@ -9,6 +9,7 @@ import { FaceRenderer, type RenderQuality } from '../view/face_renderer.ts';
 import { frameOf, type Fit } from '../view/framing.ts';
 import { loadRuntime } from '../wasm.ts';
 import { budgetOf, cheaperSteps, fewerPixels, firstVertices, Pace, thisDevice, type Budget, type QualityName, type Step } from './detail.ts';
+import type { StreamSound } from '../sound/index.ts';
 import { Link } from './link.ts';
 import { faceOf, Images, modelOf, smallImages, trouble, type Source } from './loader.ts';
 import { FaceTrouble, isPassing } from './words.ts';
@@ -24,6 +25,8 @@ export interface ShowEvents {
   playing: void;
   level: { lod: number; vertices: number };
   trouble: FaceTrouble | null;
+  /** The stream has sound or not, or it is heard or not. */
+  sound: void;
 }
 
 export interface ShowOptions {
@@ -33,6 +36,8 @@ export interface ShowOptions {
   /** Whether colours fade in; not where less motion is wished. */
   fades: boolean;
   paused: boolean;
+  /** Whether the sound is asked for; it is heard after `setSound`. */
+  sound: boolean;
 }
 
 /** ms until the next attempt after a trouble that can pass; each attempt doubles it, up to the longest. */
@@ -49,10 +54,11 @@ export class FaceShow extends Emitter<ShowEvents> {
   readonly link: Link;
   face: Face | null = null;
   /** Follows the stream while the face is still loading. */
-  readonly player = new Player(null);
+  readonly player: Player = new Player(null, { clock: () => this.sound?.mediaTime ?? NaN });
   /** Pictures drawn in the last second in which the face moved. */
   framesPerSecond = 0;
 
+  private sound: StreamSound | null = null;
   private readonly renderer: FaceRenderer;
   private render: RenderQuality;
   private readonly budget: Budget;
@@ -91,7 +97,8 @@ export class FaceShow extends Emitter<ShowEvents> {
     }
     this.renderer.onChange = () => this.invalidate();
     this.images = new Images(options.source);
-    this.link = new Link(options.source);
+    this.link = new Link(options.source, options.sound);
+    this.link.client.on('header', () => this.emit('sound', undefined));
     this.player.follow(this.link.client);
     this.link.on('state', () => this.takeLink());
     for (const name of ['online', 'pageshow', 'focus']) window.addEventListener(name, this.check);
@@ -116,6 +123,24 @@ export class FaceShow extends Emitter<ShowEvents> {
     this.settle();
   }
 
+  get hasSound(): boolean {
+    return this.link.client.header?.sound?.codec === 'opus';
+  }
+
+  get isHeard(): boolean {
+    return this.sound?.isOn ?? false;
+  }
+
+  /** To call by a tap. Rejects where the browser does not allow sound. */
+  async setSound(on: boolean): Promise<void> {
+    // What decodes and plays is fetched by those who listen.
+    const { StreamSound } = await import('../sound/index.ts');
+    if (this.work.signal.aborted) return;
+    if (on) await (this.sound ??= new StreamSound(this.link.client, this.player)).start();
+    else await this.sound?.stop();
+    this.emit('sound', undefined);
+  }
+
   setFit(fit: Fit): void {
     if (this.face) this.camera.subject = frameOf(this.face.rig, fit);
     this.invalidate();
@@ -132,6 +157,7 @@ export class FaceShow extends Emitter<ShowEvents> {
     for (const name of ['online', 'pageshow', 'focus']) window.removeEventListener(name, this.check);
     document.removeEventListener('visibilitychange', this.check);
     this.resized.disconnect();
+    this.sound?.dispose();
     this.link.close();
     this.player.dispose();
     this.kernel?.dispose();

@@ -22,10 +22,11 @@ export class Link extends Emitter<{ state: LinkState }> {
   private ended = false;
   private readonly stops: (() => void)[];
 
-  constructor(source: Source) {
+  constructor(source: Source, sound: boolean) {
     super();
     const base = source.base === '' ? location.origin : source.base;
-    this.client = new StreamClient(streamUrl(base, source.stream), source.token === null ? {} : { token: source.token });
+    const token = source.token === null ? {} : { token: source.token };
+    this.client = new StreamClient(streamUrl(base, source.stream), { sound, ...token });
     const hear = (): void => {
       this.heard = performance.now();
       clearTimeout(this.answer);

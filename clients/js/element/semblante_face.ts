@@ -35,7 +35,7 @@ const Base = (globalThis as { HTMLElement?: typeof HTMLElement }).HTMLElement ??
  * events.
  */
 export class SemblanteFace extends Base {
-  static readonly observedAttributes = ['src', 'stream', 'model', 'fit', 'quality', 'poster', 'alt'];
+  static readonly observedAttributes = ['src', 'stream', 'model', 'fit', 'quality', 'poster', 'alt', 'sound'];
 
   private show: FaceShow | null = null;
   private failed: FaceTrouble | null = null;
@@ -48,6 +48,7 @@ export class SemblanteFace extends Base {
   private readonly words = this.make('p');
   private readonly wheel = this.make('i');
   private readonly playButton = this.make('button');
+  private readonly soundButton = this.make('button');
   private fingers = new Map<number, { x: number; y: number }>();
 
   constructor() {
@@ -62,7 +63,11 @@ export class SemblanteFace extends Base {
     this.playButton.textContent = 'Play';
     this.playButton.hidden = true;
     this.playButton.addEventListener('click', () => this.play());
-    root.append(this.picture, this.wheel, this.words, this.playButton);
+    this.soundButton.type = 'button';
+    this.soundButton.className = 'sound';
+    this.soundButton.hidden = true;
+    this.soundButton.addEventListener('click', () => void this.setSound(!this.isHeard).catch(() => this.update()));
+    root.append(this.picture, this.wheel, this.words, this.playButton, this.soundButton);
     this.addEventListener('keydown', (event) => this.turnByKey(event));
   }
 
@@ -118,6 +123,14 @@ export class SemblanteFace extends Base {
     this.setAttribute('theme', value);
   }
 
+  /** Whether the stream's sound is asked for. A button, or `setSound`, lets it be heard: browsers demand a tap. */
+  get sound(): boolean {
+    return this.hasAttribute('sound');
+  }
+  set sound(value: boolean) {
+    this.toggleAttribute('sound', value);
+  }
+
   /** A token, for a server of another origin that asks for one. Write only; not an attribute, which pages show. */
   set token(value: string | null) {
     this.secret = value;
@@ -163,6 +176,10 @@ export class SemblanteFace extends Base {
     };
   }
 
+  get isHeard(): boolean {
+    return this.show?.isHeard ?? false;
+  }
+
   // ---- methods ----------------------------------------------------------------------------------------------
 
   play(): void {
@@ -175,6 +192,11 @@ export class SemblanteFace extends Base {
     this.paused_ = true;
     this.show?.setPaused(true);
     this.update();
+  }
+
+  /** To call by a tap or a key. Rejects where the browser does not allow sound. */
+  async setSound(on: boolean): Promise<void> {
+    await this.show?.setSound(on);
   }
 
   /** Turns the camera back to the front. */
@@ -241,6 +263,7 @@ export class SemblanteFace extends Base {
         quality: this.quality,
         fades: !lessMotion(),
         paused: this.paused,
+        sound: this.sound,
       });
       this.show = show;
       show.on('state', (state) => {
@@ -257,6 +280,7 @@ export class SemblanteFace extends Base {
         this.update();
         this.tell('ready');
       });
+      show.on('sound', () => this.update());
       show.on('playing', () => this.tell('playing'));
       show.on('level', (level) => this.tell('levelchange', level));
     } catch (error) {
@@ -297,8 +321,17 @@ export class SemblanteFace extends Base {
     if (this.words.textContent !== this.message) this.words.textContent = this.message;
     this.words.className = alone ? 'alone' : '';
     this.playButton.hidden = !(this.paused && (state === 'resting' || state === 'playing'));
+    this.updateSound();
     if (alone) this.canvas?.classList.remove('shown');
     this.tell('statechange', { state, message: this.message });
+  }
+
+  private updateSound(): void {
+    const { soundButton, show } = this;
+    soundButton.hidden = !this.sound || !(show?.hasSound ?? false) || this.state === 'error';
+    const canHear = typeof AudioDecoder === 'function';
+    soundButton.disabled = !canHear;
+    soundButton.textContent = !canHear ? 'No sound in this browser' : this.isHeard ? 'Sound off' : 'Sound on';
   }
 
   // ---- presentation -----------------------------------------------------------------------------------------

@@ -32,6 +32,8 @@ button {
   background: light-dark(#2b2925, #f1eee9); color: light-dark(#fff, #1a1a1a);
 }
 button[hidden] { display: none; }
+button.sound { left: 12px; bottom: calc(12px + env(safe-area-inset-bottom)); translate: none; padding: 0 1.1em; font-size: 14px; }
+button:disabled { opacity: 0.7; cursor: default; }
 i { position: absolute; left: 50%; top: 50%; width: 34px; height: 34px; margin: -17px; border-radius: 50%;
   border: 3px solid color-mix(in srgb, currentColor 25%, transparent); border-top-color: currentColor; animation: turn 0.9s linear infinite; }
 i[hidden] { display: none; }

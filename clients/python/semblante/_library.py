@@ -112,20 +112,23 @@ class HeadOptions(Sized):
 class StreamOptions(Sized):
     _fields_ = [("size", c_uint32), ("role", c_uint32), ("take_over", c_uint32), ("max_message_bytes", c_uint32),
                 ("retry_first", c_double), ("retry_longest", c_double), ("seed", c_uint64), ("ping_interval", c_double),
-                ("silence_limit", c_double), ("batch", c_double), ("resume_epoch", c_uint64), ("resume_sequence", c_uint64)]
+                ("silence_limit", c_double), ("batch", c_double), ("resume_epoch", c_uint64), ("resume_sequence", c_uint64),
+                ("sound", c_uint32), ("reserved", c_uint32)]
 
 
 class Event(Sized):
     _fields_ = [("size", c_uint32), ("type", c_uint32), ("state", c_uint32), ("code", c_uint32), ("resumed", c_uint32),
                 ("is_final", c_uint32), ("epoch", c_uint64), ("sequence", c_uint64), ("media_time", c_double),
-                ("round_trip", c_double), ("server_offset", c_double), ("error", Error)]
+                ("round_trip", c_double), ("server_offset", c_double), ("error", Error),
+                ("duration", c_double), ("packet", POINTER(c_uint8)), ("packet_size", c_uint32), ("reserved", c_uint32)]
 
 
 class Header(Sized):
     _fields_ = [("size", c_uint32), ("resumed", c_uint32), ("epoch", c_uint64), ("sequence", c_uint64),
                 ("media_time", c_double), ("server_time", c_double), ("frame_rate", c_double), ("batch_interval", c_double),
                 ("viseme_share", c_double), ("stream", c_char_p), ("title", c_char_p), ("model", c_char_p),
-                ("quantizer", POINTER(c_double))]
+                ("quantizer", POINTER(c_double)), ("sound_codec", c_uint32), ("sound_rate", c_uint32),
+                ("sound_channels", c_uint32), ("sound_bitrate", c_uint32)]
 
 
 class Clock(Sized):

@@ -20,6 +20,7 @@ class EventType(enum.IntEnum):
     REFUSED = 8
     FAULT = 9
     END = 10
+    SOUND = 11
 
 
 class State(enum.IntEnum):
@@ -35,12 +36,12 @@ class Stream(Owner):
 
     _destroy = library.semblante_stream_destroy
 
-    def __init__(self, *, publish=False, take_over=False, batch=0.0, seed=0, ping_interval=0.0, resume=None):
+    def __init__(self, *, publish=False, take_over=False, batch=0.0, seed=0, ping_interval=0.0, resume=None, sound=False):
         """`batch`: a publisher's frames of this many ms travel in one message. `resume`: what `resume_point` of an earlier
-        object gave."""
+        object gave. `sound`: SOUND events bring the packets of the stream's sound."""
         epoch, sequence = resume or (0, 0)
         options = StreamOptions(role=int(publish), take_over=int(take_over), batch=batch, seed=seed,
-                                ping_interval=ping_interval, resume_epoch=epoch, resume_sequence=sequence)
+                                ping_interval=ping_interval, resume_epoch=epoch, resume_sequence=sequence, sound=int(sound))
         super().__init__(make(library.semblante_stream_create, ctypes.byref(options)))
 
     def start(self, now):
@@ -83,6 +84,11 @@ class Stream(Owner):
         """The next Event, None when there is none; its `type` is an EventType."""
         event = Event()
         return event if library.semblante_stream_next_event(self._handle, ctypes.byref(event)) else None
+
+    @staticmethod
+    def packet(event):
+        """The bytes of a SOUND event, before the next event is taken; they begin at its `media_time` and last `duration` ms."""
+        return ctypes.string_at(event.packet, event.packet_size) if event.packet_size else b""
 
     def events(self):
         while (event := self.next_event()) is not None:

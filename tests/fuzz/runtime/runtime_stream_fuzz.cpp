@@ -21,6 +21,7 @@ struct Session {
     options.take_over = flags >> 1U & 1U;
     options.batch = (flags & 4U) != 0 ? 100 : 0;
     options.seed = 1;
+    options.sound = flags >> 6U & 1U;
     must(semblante_stream_create(&options, &stream, nullptr) == SEMBLANTE_OK);
     semblante_player_options showing{};
     showing.size = sizeof(showing);
@@ -43,9 +44,12 @@ struct Session {
     int count = 0;
     while (semblante_stream_next_event(stream, &event) != 0) {
       must(++count <= 64);
-      must(event.type > SEMBLANTE_EVENT_NONE && event.type <= SEMBLANTE_EVENT_END &&
+      must(event.type > SEMBLANTE_EVENT_NONE && event.type <= SEMBLANTE_EVENT_SOUND &&
            event.state <= SEMBLANTE_STREAM_WAITING);
       must(std::isfinite(event.media_time) && std::isfinite(event.round_trip) && std::isfinite(event.server_offset));
+      must((event.type == SEMBLANTE_EVENT_SOUND) == (event.packet != nullptr));
+      must(event.packet_size <= 4000 && event.duration >= 0 && event.duration <= 120);
+      for (std::uint32_t i = 0; i < event.packet_size; ++i) must(event.packet[i] <= 255);
       must(std::memchr(event.error.message, 0, sizeof(event.error.message)) != nullptr);
     }
     std::uint32_t frames = 0;

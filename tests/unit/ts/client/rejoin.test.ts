@@ -83,6 +83,7 @@ class Server {
         quantizers: [],
         recovered,
         viseme_share: null,
+    sound: null,
       } satisfies Header,
       {
         type: 'keyframe',

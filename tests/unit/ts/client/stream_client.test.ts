@@ -21,6 +21,7 @@ const header: Header = {
   quantizers: [],
   recovered: false,
   viseme_share: null,
+    sound: null,
 };
 const state = (level: number): FaceFrame => {
   const frame = neutralFrame();
@@ -62,7 +63,7 @@ describe('StreamClient', () => {
     FakeSocket.last.accept();
     expect(FakeSocket.last.protocols).toEqual(['semblante.v1']);
     expect(FakeSocket.last.sent).toEqual([
-      { type: 'hello', version: 1, role: 'subscribe', resume: null, take_over: false },
+      { type: 'hello', version: 1, role: 'subscribe', resume: null, take_over: false, sound: false },
     ]);
     FakeSocket.last.give(header);
     expect(stream.state).toBe('open');

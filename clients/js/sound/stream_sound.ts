@@ -1,0 +1,109 @@
+import type { Player } from '../player.ts';
+import type { SoundPacket, StreamClient } from '../stream_client.ts';
+import { SoundSchedule } from './schedule.ts';
+
+/** Packets that may wait for the decoder: more than a second of sound. */
+const mostWaiting = 24;
+
+/**
+ * Lets the sound of a stream be heard, by the browser's own Opus decoder, and tells the player the time to show:
+ *
+ *     const client = new StreamClient(url, { sound: true });
+ *     const player = new Player(kernel, { clock: () => sound.mediaTime });
+ *     const sound = new StreamSound(client, player);
+ *     button.onclick = () => sound.start();  // browsers ask for a tap
+ */
+export class StreamSound {
+  private readonly schedule = new SoundSchedule();
+  private context: AudioContext | null = null;
+  private decoder: AudioDecoder | null = null;
+  private readonly stops: (() => void)[];
+
+  constructor(
+    private readonly client: StreamClient,
+    private readonly player: Player,
+  ) {
+    this.stops = [
+      client.on('sound', (packet) => this.decode(packet)),
+      client.on('header', () => this.schedule.clear()), // another epoch has another clock; what is lost is lost
+    ];
+  }
+
+  /** Whether this browser decodes Opus and lets pages make sound. */
+  static get isSupported(): boolean {
+    return typeof AudioDecoder === 'function' && typeof AudioContext === 'function';
+  }
+
+  get isOn(): boolean {
+    return this.context?.state === 'running';
+  }
+
+  /** The media time that is heard now, for the option `clock` of the player; NaN while nothing is heard. */
+  get mediaTime(): number {
+    return this.context && this.isOn ? this.schedule.heardAt(this.outputTime(this.context)) : NaN;
+  }
+
+  /** To call by a tap or a key. Rejects where the browser does not allow sound. */
+  async start(): Promise<void> {
+    // The rate of Opus: otherwise each packet would be resampled by itself, which is heard at its ends.
+    this.context ??= new AudioContext({ sampleRate: this.client.header?.sound?.rate ?? 48_000, latencyHint: 'interactive' });
+    await this.context.resume();
+  }
+
+  async stop(): Promise<void> {
+    this.schedule.clear();
+    await this.context?.suspend();
+  }
+
+  dispose(): void {
+    for (const stop of this.stops) stop();
+    if (this.decoder?.state !== 'closed') this.decoder?.close();
+    void this.context?.close();
+    this.context = this.decoder = null;
+  }
+
+  /** That of what is heard at this moment, ms. */
+  private outputTime(context: AudioContext): number {
+    return context.currentTime * 1000 - latency(context);
+  }
+
+  private decode({ mediaTime, packet }: SoundPacket): void {
+    const sound = this.client.header?.sound;
+    if (!this.isOn || sound?.codec !== 'opus') return;
+    const decoder = this.decoderOf(sound.rate, sound.channels);
+    if (decoder.decodeQueueSize >= mostWaiting) return;
+    decoder.decode(new EncodedAudioChunk({ type: 'key', timestamp: mediaTime * 1000, data: packet }));
+  }
+
+  private decoderOf(sampleRate: number, numberOfChannels: number): AudioDecoder {
+    if (this.decoder && this.decoder.state === 'configured') return this.decoder;
+    // After a packet that it cannot decode a decoder is closed: the next packet gets another one.
+    this.decoder = new AudioDecoder({ output: (data) => this.hear(data), error: () => undefined });
+    this.decoder.configure({ codec: 'opus', sampleRate, numberOfChannels });
+    return this.decoder;
+  }
+
+  private hear(data: AudioData): void {
+    const { context } = this;
+    const now = context ? this.outputTime(context) : NaN;
+    const { delay, clock } = this.player.stats;
+    const shown = (clock?.mediaTime ?? NaN) - delay;
+    const packet = { mediaTime: data.timestamp / 1000, duration: (data.numberOfFrames / data.sampleRate) * 1000 };
+    const at = this.isOn ? this.schedule.place(packet, now, shown) : NaN;
+    if (context && !Number.isNaN(at)) {
+      const buffer = new AudioBuffer({ length: data.numberOfFrames, numberOfChannels: data.numberOfChannels, sampleRate: data.sampleRate });
+      for (let channel = 0; channel < data.numberOfChannels; channel += 1) {
+        data.copyTo(buffer.getChannelData(channel), { planeIndex: channel, format: 'f32-planar' });
+      }
+      const node = new AudioBufferSourceNode(context, { buffer });
+      node.connect(context.destination);
+      node.start((at + latency(context)) / 1000);
+    }
+    data.close();
+  }
+}
+
+/** ms from a sample's time in the context until it is heard */
+function latency(context: AudioContext): number {
+  return (context.outputLatency || context.baseLatency || 0) * 1000;
+}
