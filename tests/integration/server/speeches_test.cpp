@@ -326,6 +326,51 @@ TEST_F(Speeches, StreamSaysATextOrAStoredSpeech) {
   expect_problem(ask("POST", "/v1/streams/absent/speech", hello_.dump(), json_type), 404, "not-found");
 }
 
+/// What a subscriber of the stream gets until it has ended, from its header on.
+std::vector<json> all_messages(WebSocket& subscriber) {
+  std::vector<json> messages;
+  while (const auto text = subscriber.receive()) {
+    messages.push_back(json::parse(*text));
+    if (messages.back()["type"] == "end") break;
+  }
+  return messages;
+}
+
+TEST_F(Speeches, WhoAsksForSound_HearsWhatTheStreamSays) {
+  start();
+  const auto kept = json_of(say(hello_));
+  for (const auto& wish : {hello_, json{{"speech", kept["id"]}}}) {
+    ASSERT_EQ(ask("POST", "/v1/streams", R"({"name":"talk"})", json_type).status, 201);
+    WebSocket listener(server_->port(), "/v1/streams/talk", "semblante.v1.json");
+    WebSocket viewer(server_->port(), "/v1/streams/talk", "semblante.v1.json");
+    listener.send_text(R"({"type":"hello","version":1,"sound":true})");
+    viewer.send_text(R"({"type":"hello","version":1})");
+    const auto header = json::parse(listener.receive().value_or("{}"));
+    EXPECT_EQ(header["sound"], (json{{"codec", "opus"}, {"rate", 48000}, {"channels", 1}, {"bitrate", 20000}}));
+    EXPECT_FALSE(json::parse(viewer.receive().value_or("{}")).contains("sound"));
+
+    ASSERT_EQ(ask("POST", "/v1/streams/talk/speech", wish.dump(), json_type).status, 202);
+    for (int i = 0; i < 600 && !json_of(ask("GET", "/v1/streams/talk"))["playing"].is_null(); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    ASSERT_EQ(ask("DELETE", "/v1/streams/talk").status, 204);
+
+    std::vector<std::uint64_t> heard;
+    std::uint64_t first_frame = 0, last_frame = 0;
+    for (const auto& message : all_messages(listener)) {
+      const std::string type = message["type"];
+      if (type == "sound") heard.push_back(message["media_time"].get<std::uint64_t>());
+      if (type != "frames") continue;
+      if (first_frame == 0) first_frame = message["media_time"].get<std::uint64_t>();
+      last_frame = message["media_time"].get<std::uint64_t>();
+    }
+    ASSERT_GE(heard.size(), 5U);
+    for (const auto time : heard) EXPECT_EQ((time - heard.front()) % 60, 0U) << "on one clock, packet by packet";
+    EXPECT_GE(heard.front() + 1, first_frame);
+    EXPECT_LE(heard.back(), last_frame);
+    for (const auto& message : all_messages(viewer)) EXPECT_NE(message["type"], "sound");
+  }
+}
+
 TEST_F(Speeches, MouthOfTheStreamMoves) {
   start();
   ASSERT_EQ(ask("POST", "/v1/streams", R"({"name":"talk"})", json_type).status, 201);
