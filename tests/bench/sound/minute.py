@@ -1,0 +1,107 @@
+#!/usr/bin/env python3
+"""What a minute of talk takes on the wire: face, sound, both. Python 3, standard library.
+
+    minute.py PROGRAM [TEXT_FILE]     PROGRAM: build/bin/semblante, with its voice beside it
+
+Starts a server, has a stream say the text, and counts the WebSocket payloads and headers of one subscriber without and one with
+sound, until the talk ends."""
+
+import base64
+import http.client
+import json
+import os
+import pathlib
+import re
+import socket
+import struct
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+
+TEXT = pathlib.Path(__file__).with_name("talk.txt")
+
+
+def free_port():
+    with socket.socket() as one:
+        one.bind(("127.0.0.1", 0))
+        return one.getsockname()[1]
+
+
+def ask(port, method, path, body=None):
+    connection = http.client.HTTPConnection("127.0.0.1", port, timeout=120)
+    connection.request(method, path, json.dumps(body) if body is not None else None, {"Content-Type": "application/json"} if body is not None else {})
+    answer = connection.getresponse()
+    return answer.status, json.loads(answer.read() or b"null")
+
+
+class Subscriber(threading.Thread):
+    """Counts what comes; in the binary form a first byte of 10 is sound, 9 and 128 to 255 are faces."""
+
+    def __init__(self, port, sound):
+        super().__init__(daemon=True)
+        self.bytes = {"face": 0, "sound": 0}
+        self.messages = {"face": 0, "sound": 0}
+        self.socket = socket.create_connection(("127.0.0.1", port))
+        key = base64.b64encode(os.urandom(16)).decode()
+        self.socket.sendall(
+            f"GET /v1/streams/talk HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+            f"Sec-WebSocket-Key: {key}\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Protocol: semblante.v1\r\n\r\n".encode())
+        self.file = self.socket.makefile("rb")
+        while self.file.readline() != b"\r\n":
+            pass
+        hello = bytes([1, 1, 0, 0]) + (bytes([0, 1]) if sound else b"")
+        self.socket.sendall(bytes([0x82, 0x80 | len(hello)]) + bytes(4) + hello)
+
+    def run(self):
+        while head := self.file.read(2):
+            size, header = head[1] & 127, 2
+            if size == 126:
+                size, header = struct.unpack(">H", self.file.read(2))[0], 4
+            payload = self.file.read(size)
+            if head[0] & 15 != 2 or not payload or payload[0] in (2, 5):
+                continue
+            kind = "sound" if payload[0] == 10 else "face"
+            self.bytes[kind] += header + size
+            self.messages[kind] += 1
+
+
+def main(program, text):
+    port = free_port()
+    with tempfile.TemporaryDirectory() as data:
+        server = subprocess.Popen([program, "serve", "--port", str(port), "--data", data], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        try:
+            for _ in range(600):
+                try:
+                    if ask(port, "GET", "/readyz")[0] == 200:
+                        break
+                except OSError:
+                    pass
+                time.sleep(0.1)
+            assert ask(port, "POST", "/v1/streams", {"name": "talk"})[0] == 201
+            subscribers = [Subscriber(port, sound) for sound in (False, True)]
+            for one in subscribers:
+                one.start()
+            begun = time.monotonic()
+            status, playing = ask(port, "POST", "/v1/streams/talk/speech", {"text": text, "language": "en", "seed": 7})
+            assert status == 202, playing
+            answered = time.monotonic() - begun
+            seconds = playing["duration"] / 1000
+            while ask(port, "GET", "/v1/streams/talk")[1].get("playing"):
+                time.sleep(0.5)
+            without, both = subscribers
+            assert without.bytes["sound"] == 0
+            print(f"{seconds:.1f} s of talk; the request was answered after {answered * 1000:.0f} ms")
+            print("| a minute of talk | messages | bytes | kbit/s |\n|---|---|---|---|")
+            rows = [("face", without.messages["face"], without.bytes["face"]), ("sound", both.messages["sound"], both.bytes["sound"]),
+                    ("both", sum(both.messages.values()), sum(both.bytes.values()))]
+            for name, messages, count in rows:
+                print(f"| {name} | {messages * 60 / seconds:.0f} | {count * 60 / seconds:.0f} | {count * 8 / seconds / 1000:.1f} |")
+        finally:
+            server.terminate()
+            server.wait()
+
+
+if __name__ == "__main__":
+    main(sys.argv[1], re.sub(r"\s+", " ", pathlib.Path(sys.argv[2] if len(sys.argv) > 2 else TEXT).read_text()).strip())
