@@ -17,6 +17,9 @@ export class StreamSound {
   private readonly schedule = new SoundSchedule();
   private context: AudioContext | null = null;
   private decoder: AudioDecoder | null = null;
+  /** What is played and is to be played. */
+  private readonly nodes = new Set<AudioBufferSourceNode>();
+  private epoch = NaN;
   private readonly stops: (() => void)[];
 
   constructor(
@@ -25,7 +28,10 @@ export class StreamSound {
   ) {
     this.stops = [
       client.on('sound', (packet) => this.decode(packet)),
-      client.on('header', () => this.schedule.clear()), // another epoch has another clock; what is lost is lost
+      client.on('header', ({ epoch }) => {
+        if (epoch !== this.epoch) this.silence(); // it has another clock
+        this.epoch = epoch;
+      }),
     ];
   }
 
@@ -51,7 +57,7 @@ export class StreamSound {
   }
 
   async stop(): Promise<void> {
-    this.schedule.clear();
+    this.silence();
     await this.context?.suspend();
   }
 
@@ -60,6 +66,12 @@ export class StreamSound {
     if (this.decoder?.state !== 'closed') this.decoder?.close();
     void this.context?.close();
     this.context = this.decoder = null;
+  }
+
+  private silence(): void {
+    this.schedule.clear();
+    for (const node of this.nodes) node.stop();
+    this.nodes.clear();
   }
 
   /** That of what is heard at this moment, ms. */
@@ -97,6 +109,8 @@ export class StreamSound {
       }
       const node = new AudioBufferSourceNode(context, { buffer });
       node.connect(context.destination);
+      node.onended = () => this.nodes.delete(node);
+      this.nodes.add(node);
       node.start((at + latency(context)) / 1000);
     }
     data.close();

@@ -80,6 +80,8 @@ describe('SoundSchedule', () => {
 /** A device for sound whose clock the test moves. What is heard, and when, is read from what it was told to play. */
 class Device {
   state = 'running';
+  stopped = 0;
+  suspend = async (): Promise<void> => undefined;
   baseLatency = 0;
   outputLatency = 0.02;
   destination = null;
@@ -135,6 +137,7 @@ class Decoder {
   }
 }
 class Source {
+  onended: (() => void) | null = null;
   constructor(
     readonly context: Device,
     readonly given: { buffer: { length: number } },
@@ -143,6 +146,9 @@ class Source {
   start(at: number): void {
     expect(at).toBeGreaterThanOrEqual(this.context.currentTime);
     this.context.played.push({ at, mediaTime: decoding, duration: this.given.buffer.length / 48 });
+  }
+  stop(): void {
+    this.context.stopped += 1;
   }
 }
 vi.stubGlobal('AudioContext', Device);
@@ -246,6 +252,39 @@ describe('StreamSound', () => {
     const measured = await watch(jitter, 40, events);
     expect(measured.p99).toBeLessThanOrEqual(40);
     expect(measured.heard).toBeGreaterThan(heard);
+  });
+
+  it('SoundOff_AndAnotherEpoch_EndWhatWasToBePlayed_AReconnectionDoesNot', async () => {
+    world.now = 50_000;
+    const client = new StreamClient('ws://x', {
+      WebSocket: FakeSocket as unknown as NonNullable<StreamOptions['WebSocket']>,
+      now: () => world.now,
+      sound: true,
+    });
+    const player = new Player(poses, { now: () => world.now });
+    player.follow(client);
+    const sound = new StreamSound(client, player);
+    await sound.start();
+    const say = (epoch: number, mediaTime: number): void => {
+      client.connect();
+      FakeSocket.last.accept();
+      FakeSocket.last.give(headerOf({ epoch, media_time: mediaTime, sound: track }));
+      FakeSocket.last.give({ type: 'keyframe', sequence: 1, media_time: mediaTime, state: neutralFrame() });
+      player.update(0.016);
+      FakeSocket.last.give({ type: 'sound', media_time: mediaTime, packet });
+    };
+    say(1, 50_000);
+    expect([Device.one.played.length, Device.one.stopped]).toEqual([1, 0]);
+    FakeSocket.last.drop();
+    say(1, 50_060);
+    expect([Device.one.played.length, Device.one.stopped]).toEqual([2, 0]);
+    FakeSocket.last.drop();
+    say(2, 7);
+    expect([Device.one.played.length, Device.one.stopped]).toEqual([3, 2]);
+    await sound.stop();
+    expect(Device.one.stopped).toBe(3);
+    expect(sound.mediaTime).toBeNaN();
+    client.dispose();
   });
 
   it('Packets_BeforeTheTap_AreNotDecoded', () => {
