@@ -713,7 +713,7 @@ export interface paths {
         put?: never;
         /**
          * The face of the stream says a text, or a stored speech, from now on
-         * @description As a performance: while it speaks it is the stream's one source. The stream carries the face; the sound of a stored speech is at its own address.
+         * @description As a performance: while it speaks it is the stream's one source. Its sound is heard by the subscribers that asked for sound (protocol/SPEC.md, 2.1); the sound of a stored speech is also at its own address. Recordings of the stream have no sound.
          */
         post: operations["speakIntoStream"];
         delete?: never;
