@@ -16,6 +16,7 @@ namespace {
 constexpr double step = Cepstra::step_ms;
 constexpr double below_loudest_db = 38.0, above_floor_db = 8.0, least_range_db = 6.0, silent_db = -70.0;
 constexpr double kept_of_pause_ms = 30.0;  ///< at each of its ends, so that closures and hisses beside it align
+constexpr double longest_click_ms = 50.0;  ///< between pauses; what is shorter is no speech
 constexpr double most_stretch = 4.0;
 constexpr double highest_hz = 6'500.0;
 constexpr std::size_t coarse = 4;               ///< frames in one of the first pass
@@ -41,15 +42,29 @@ std::vector<std::pair<std::size_t, std::size_t>> quiet_runs(const std::vector<fl
   double threshold = std::max(loudest - below_loudest_db, std::min(floor + above_floor_db, loudest - least_range_db));
   // A steady sound is all speech when it is loud, all silence when it is not.
   if (silent) threshold = loudest < silent_db ? std::numeric_limits<double>::max() : silent_db;
-  std::vector<std::pair<std::size_t, std::size_t>> runs;
   const auto least = static_cast<std::size_t>(least_pause_ms / step);
+  const auto click = static_cast<std::size_t>(longest_click_ms / step);
+  const auto is_long = [least](const auto& run) { return run.second - run.first >= least; };
+  // The ends count as runs, so that a click between an end and a pause is no speech either.
+  std::vector<std::pair<std::size_t, std::size_t>> runs = {{0, 0}};
+  const auto add = [&](std::size_t first, std::size_t end) {
+    auto& last = runs.back();
+    if (first - last.second <= click && (is_long(last) || end - first >= least))
+      last.second = end;
+    else
+      runs.emplace_back(first, end);
+  };
   for (std::size_t at = 0; at < levels.size();) {
     std::size_t end = at;
     while (end < levels.size() && levels[end] < threshold) ++end;
-    const bool edge = at == 0 || end == levels.size();
-    if (end > at && (end - at >= least || edge)) runs.emplace_back(at, end);
+    if (end > at) add(at, end);
     at = end + 1;
   }
+  add(levels.size(), levels.size());
+  std::erase_if(runs, [&](const auto& run) {
+    const bool at_end = run.first == 0 || run.second == levels.size();
+    return run.first == run.second || (!is_long(run) && !at_end);
+  });
   return runs;
 }
 
