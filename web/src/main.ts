@@ -148,7 +148,7 @@ function main(root: HTMLElement, session: Session | null, theme: HTMLElement): v
     keepOffline();
     queueMicrotask(() => kept());
   });
-  routeDrops(layout, studio, performance, clip);
+  routeDrops(layout, studio, performance, clip, speak);
   startPolling({ studio, scene, live, livePanel, overlay, recordings, performance, clip });
 
   const address = new Address(studio, points, live);

@@ -10,3 +10,7 @@ test('Drop_ByTheTab_GoesToTheStreamOrStaysOnThePage', () => {
   expect(dropPlace('a.fap', 'points')).toBe('page');
   for (const tab of ['heads', 'animate', 'live'] as const) expect(dropPlace('json.glb', tab)).toBe('heads');
 });
+
+test('a sound goes to the Speak panel, whatever tab is open', () => {
+  for (const name of ['a.wav', 'a.MP3', 'my voice.opus']) expect(dropPlace(name, 'live')).toBe('speech');
+});

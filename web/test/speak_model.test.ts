@@ -47,6 +47,7 @@ let sound: FakeSound;
 let driver: FaceDriver;
 let model: SpeakModel;
 let removed: string[];
+let recordings: string[];
 let made: number;
 let fails: Error | null;
 /** What the next speech of a part leaves to say. */
@@ -58,6 +59,7 @@ beforeEach(() => {
   sound = new FakeSound();
   driver = new FaceDriver(neutralFrame());
   removed = [];
+  recordings = [];
   made = 0;
   fails = null;
   rest = '';
@@ -69,6 +71,11 @@ beforeEach(() => {
         const id = `s${(made += 1)}`;
         if (!request.part) await whole;
         return { id, request, text: 'Olá', rest: request.part ? rest : '', warnings: [] } as unknown as Speech;
+      },
+      createSpeechOfRecording: (options, file) => {
+        made += 1;
+        recordings.push(file.name);
+        return Promise.resolve({ id: `s${made}`, request: options, text: 'Olá', rest: '', warnings: [] } as unknown as Speech);
       },
       speechTimeline: (id) => Promise.resolve(id === 's2' ? longer : timeline),
       speechPerformance: () => Promise.resolve(document),
@@ -94,6 +101,13 @@ describe('speak model', () => {
     expect([driver.source.value, model.playing.value]).toEqual(['hand', false]);
     await model.play();
     expect([sound.currentTime, model.playing.value]).toEqual([0, true]);
+  });
+
+  test('SayRecording_PlaysTheFileOfTheSpeech', async () => {
+    const file = new File(['RIFF'], 'me.wav');
+    await model.sayRecording({ text: 'Olá', language: 'pt-BR' }, file);
+    expect([recordings, sound.src, model.playing.value]).toEqual([['me.wav'], '/s1/audio', true]);
+    expect(model.state.value).toMatchObject({ kind: 'ready', speech: { id: 's1' } });
   });
 
   test('Say_LongText_PlaysItsFirstSentences_AndGoesOnInTheWhole', async () => {

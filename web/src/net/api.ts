@@ -25,6 +25,7 @@ import type {
   RecordingPage,
   RecordingPlay,
   Speech,
+  RecordingRequest,
   SpeechRequest,
   StreamInfo,
   NewStream,
@@ -99,6 +100,14 @@ export class Api {
   /** Has a text spoken; resolves when sound and face are made. */
   async createSpeech(request: SpeechRequest): Promise<Speech> {
     return (await requestJson<Speech>(`${this.base}/v1/speeches`, { method: 'POST', json: request })).value;
+  }
+
+  /** Has a recording of a text, in a sound file, said by a face; resolves when the face is made. */
+  async createSpeechOfRecording(options: RecordingRequest, sound: File): Promise<Speech> {
+    const form = new FormData();
+    form.set('options', JSON.stringify(options));
+    form.set('audio', sound);
+    return (await requestJson<Speech>(`${this.base}/v1/speeches`, { method: 'POST', body: form })).value;
   }
 
   async voices(): Promise<VoiceName[]> {

@@ -26,7 +26,8 @@ async function send(path: string, options: RequestOptions): Promise<Response> {
     headers.set('Content-Type', 'application/json');
     init.body = JSON.stringify(options.json);
   } else if (options.body !== undefined) {
-    headers.set('Content-Type', options.contentType ?? 'application/octet-stream');
+    // A form's type names its boundary, which the browser chooses.
+    if (!(options.body instanceof FormData)) headers.set('Content-Type', options.contentType ?? 'application/octet-stream');
     init.body = options.body;
   }
   if (options.keepalive) init.keepalive = true;

@@ -52,6 +52,7 @@ export type ProposalsResult = Extract<NonNullable<Job['result']>, { proposed: nu
 
 export type Speech = Schemas['Speech'];
 export type SpeechRequest = Schemas['SpeechRequest'];
+export type RecordingRequest = Schemas['TimelineSpeechRequest'];
 export type Timeline = Schemas['Timeline'];
 export type Voices = Schemas['Voices'];
 export type VoiceName = Voices['voices'][number];

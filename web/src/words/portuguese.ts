@@ -454,6 +454,9 @@ export const portuguese = {
   '{list} and {last}': '{list} e {last}',
   'an unnamed performance': 'uma performance sem nome',
   'Text to say': 'Texto a dizer',
+  'Your own recording': 'A sua própria gravação',
+  'Type what {name} says.': 'Escreva o que {name} diz.',
+  'Remove the recording': 'Remover a gravação',
   'its own': 'a sua própria',
   'Mouths are those of English: this language has no table of its own.':
     'As bocas são as do inglês: este idioma não tem tabela própria.',

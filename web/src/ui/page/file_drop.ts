@@ -2,18 +2,22 @@ import type { ClipPanel } from '../animate/clip_panel.ts';
 import { dropPlace, type DropPlace } from './drop_place.ts';
 import type { PerformancePanel } from '../live/performance_panel.ts';
 import type { Studio } from '../shared/studio.ts';
+import type { SpeakPanel } from '../speak/speak_panel.ts';
 
 /** Routes a file dropped anywhere on the page to the panel that reads it. */
-export function routeDrops(page: HTMLElement, studio: Studio, performance: PerformancePanel, clip: ClipPanel): void {
+export function routeDrops(page: HTMLElement, studio: Studio, performance: PerformancePanel, clip: ClipPanel, speak: SpeakPanel): void {
   acceptDrops(page, (files) => {
     const going = (place: DropPlace): File[] => files.filter(({ name }) => dropPlace(name, studio.tab.value) === place);
-    const [script, file, heads] = [going('stream').at(-1), going('page').at(-1), going('heads')];
+    const [script, file, sound, heads] = [going('stream').at(-1), going('page').at(-1), going('speech').at(-1), going('heads')];
     if (script) {
       studio.tab.set('live');
       void performance.takeFile(script);
     } else if (file) {
       studio.tab.set('animate');
       void clip.takeFile(file);
+    } else if (sound) {
+      studio.tab.set('animate');
+      speak.takeRecording(sound);
     }
     void studio.upload(heads);
   });

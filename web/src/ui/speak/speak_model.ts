@@ -2,7 +2,7 @@ import { Performance, type Library } from '@client/motion/index.ts';
 import { PerformanceClip } from '../../face/performance_clip.ts';
 import type { SpokenClip } from '../../face/speech_clock.ts';
 import type { Api } from '../../net/api.ts';
-import type { Speech, SpeechRequest, Timeline } from '../../net/types.ts';
+import type { RecordingRequest, Speech, SpeechRequest, Timeline } from '../../net/types.ts';
 import { messageOf } from '../shared/message_of.ts';
 import { Signal } from '../shared/signal.ts';
 import type { FaceDriver } from '../stage/face_driver.ts';
@@ -43,7 +43,7 @@ export class SpeakModel {
 
   /** `load` gives the library that evaluates performances. */
   constructor(
-    private readonly api: Pick<Api, 'createSpeech' | 'speechTimeline' | 'speechPerformance' | 'speechUrl' | 'deleteSpeech'>,
+    private readonly api: Pick<Api, 'createSpeech' | 'createSpeechOfRecording' | 'speechTimeline' | 'speechPerformance' | 'speechUrl' | 'deleteSpeech'>,
     private readonly driver: FaceDriver,
     private readonly sound: Sound,
     private readonly load: () => Promise<Library>,
@@ -63,21 +63,35 @@ export class SpeakModel {
   }
 
   /** Makes a speech and plays it. What was made before is removed from the server: this page alone knows of it. */
-  async say(request: SpeechRequest): Promise<void> {
+  say(request: SpeechRequest): Promise<void> {
+    return this.begin(
+      () => this.api.createSpeech({ ...request, part: true }),
+      () => this.api.createSpeech(request),
+    );
+  }
+
+  /** The same of a text that somebody says in a sound file. */
+  sayRecording(options: RecordingRequest, sound: File): Promise<void> {
+    const create = (): Promise<Speech> => this.api.createSpeechOfRecording(options, sound);
+    return this.begin(create, create);
+  }
+
+  /** `create`: the speech, or its first sentences; `createWhole`: all of it, when it has a rest. */
+  private async begin(create: () => Promise<Speech>, createWhole: () => Promise<Speech>): Promise<void> {
     const number = (this.newest += 1);
     this.stop();
     this.forget();
     this.state.set({ kind: 'making' });
     try {
       await this.idle; // a small server lets one voice speak at a time
-      const take = await this.make({ ...request, part: true }, (speech) => {
+      const take = await this.make(create, (speech) => {
         // The sound is on its way while its face is fetched.
         if (number === this.newest) this.sound.src = this.api.speechUrl(speech.id, 'audio');
       });
       if (number !== this.newest) return this.remove(take.speech);
       this.take = take;
       this.state.set({ kind: 'ready', speech: take.speech, timeline: take.timeline });
-      if (take.speech.rest !== '') this.makeWhole(request, number);
+      if (take.speech.rest !== '') this.makeWhole(createWhole, number);
       await this.play();
     } catch (error) {
       if (number === this.newest) this.fail(messageOf(error));
@@ -114,10 +128,10 @@ export class SpeakModel {
   }
 
   /** `onSpeech`: as soon as the server has it. What is made and cannot be used is removed. */
-  private async make(request: SpeechRequest, onSpeech?: (speech: Speech) => void): Promise<Take> {
+  private async make(create: () => Promise<Speech>, onSpeech?: (speech: Speech) => void): Promise<Take> {
     const library = this.load();
     library.catch(() => undefined); // it is awaited below
-    const speech = await this.api.createSpeech(request);
+    const speech = await create();
     try {
       onSpeech?.(speech);
       const [timeline, document] = await Promise.all([
@@ -132,8 +146,8 @@ export class SpeakModel {
     }
   }
 
-  private makeWhole(request: SpeechRequest, number: number): void {
-    const whole = this.make(request);
+  private makeWhole(create: () => Promise<Speech>, number: number): void {
+    const whole = this.make(create);
     this.whole = whole;
     this.idle = whole.then(
       (take) => {

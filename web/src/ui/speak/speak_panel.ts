@@ -1,7 +1,9 @@
 import { expressions } from '@protocol/generated/mpeg4.ts';
 import type { Api } from '../../net/api.ts';
 import type { Speech, SpeechRequest, Timeline, VoiceName } from '../../net/types.ts';
+import { soundEndings } from '../page/drop_place.ts';
 import { h, redraw, replace } from '../shared/dom.ts';
+import { chooseFile } from '../shared/file_button.ts';
 import { icon } from '../shared/icons.ts';
 import { capital } from '../shared/names.ts';
 import { Slider } from '../shared/slider.ts';
@@ -34,6 +36,9 @@ export class SpeakPanel {
   private readonly emotion: HTMLSelectElement;
   private readonly rate: Slider;
   private readonly said = h('div', { class: 'said', 'aria-live': 'polite' });
+  private readonly recorded = h('div', { class: 'speak-recorded' });
+  /** A sound file in which somebody says the text; without, the voice says it. */
+  private recording: File | null = null;
   private words: { word: Word; element: HTMLElement }[] = [];
 
   constructor(
@@ -71,6 +76,7 @@ export class SpeakPanel {
           },
         },
         this.text,
+        this.recorded,
         h('div', { class: 'speak-choices' }, field(t('Language'), this.language), field(t('Emotion'), this.emotion), field(t('Voice'), this.voice)),
         this.quality,
         this.rate.element,
@@ -84,6 +90,7 @@ export class SpeakPanel {
         void this.say();
       }
     });
+    this.showRecording();
     this.showLanguage();
     // Without the list there is the voice program's own choice.
     api.voices().then(
@@ -100,8 +107,55 @@ export class SpeakPanel {
     });
   }
 
+  /** A sound file in which somebody says the text; the text is typed, unless it is there already. */
+  takeRecording(file: File): void {
+    this.recording = file;
+    this.showRecording();
+    this.text.focus();
+  }
+
+  private showRecording(): void {
+    const { recording } = this;
+    const speed = this.rate.element;
+    speed.hidden = this.voice.disabled = recording !== null;
+    replace(
+      this.recorded,
+      recording
+        ? h(
+            'div',
+            { class: 'row' },
+            h('span', { class: 'grow' }, t('Type what {name} says.', { name: recording.name })),
+            h(
+              'button',
+              { type: 'button', on: { click: () => this.removeRecording() }, 'aria-label': t('Remove the recording') },
+              icon('close', 15),
+            ),
+          )
+        : chooseFile({
+            label: t('Your own recording'),
+            note: t('or drop it'),
+            accept: ['audio/*', ...soundEndings].join(','),
+            take: (file) => this.takeRecording(file),
+          }),
+    );
+  }
+
+  private removeRecording(): void {
+    this.recording = null;
+    this.showRecording();
+    this.recorded.querySelector('button')?.focus();
+  }
+
   private say(): Promise<void> {
     const emotion = this.emotion.value as NonNullable<SpeechRequest['emotion']>;
+    if (this.recording) {
+      const text = this.text.value.trim();
+      if (text === '') {
+        this.text.focus();
+        return Promise.resolve();
+      }
+      return this.model.sayRecording({ text, language: this.language.value, emotion }, this.recording);
+    }
     return this.model.say({
       text: this.text.value.trim() || this.text.placeholder,
       language: this.language.value,
