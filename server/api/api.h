@@ -46,7 +46,8 @@ struct ApiConfig {
   std::filesystem::path web_root;  ///< empty: no pages
   Access access;
   Security security = {};
-  voice::VoiceProgram voice = {};  ///< empty command: the server has no voice
+  voice::VoiceProgram voice = {};         ///< empty command: the server has no voice
+  voice::VoiceProgram sound_reader = {};  ///< empty command: it reads WAV alone
 };
 
 /// Writes the counts of the network layer into /metrics.

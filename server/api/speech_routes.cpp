@@ -243,7 +243,8 @@ http::Response create(Context& context, http::Request& request, std::string wish
   return created(speech);
 }
 
-http::Response create_from_timeline(Context& context, http::Request& request) {
+/// What somebody else has said: a timeline, with its sound or without, or a sound with its text.
+http::Response create_from_form(Context& context, http::Request& request) {
   const MappedFile mapped(request.body_file->path());
   const auto parts =
       http::parse_multipart(mapped.text(), http::parameter(request.header("Content-Type").value_or(""), "boundary"));
@@ -255,7 +256,9 @@ http::Response create_from_timeline(Context& context, http::Request& request) {
   voice::TimelineRequest wish;
   wish.timeline = part("timeline");
   wish.sound = part("audio");
-  if (wish.timeline.empty()) refuse("invalid-field", "the form has no part \"timeline\"", "/timeline");
+  const bool aligned = wish.timeline.empty();
+  if (aligned && wish.sound.empty())
+    refuse("invalid-field", "the form has neither a part \"timeline\" nor a part \"audio\"", "/timeline");
   http::Request options;
   options.body = std::string(part("options"));
   const auto body = body_object(options);
@@ -265,12 +268,25 @@ http::Response create_from_timeline(Context& context, http::Request& request) {
   if (body.contains("format"))
     wish.format = static_cast<TimelineFormat>(choice_member(body, "format", timeline_format_names, 0));
   read_manner(body, wish);
+  wish.sound_reader = context.config.sound_reader;
+  if (aligned) {
+    if (wish.format) refuse("invalid-field", "is of a timeline, which the form does not have", "/format");
+    if (wish.text.empty())
+      refuse("invalid-field", "is missing: a recording without a timeline needs the text that is said in it", "/text");
+    refuse_without_voice(context);
+  }
   // The fingerprint is not that of the raw body, because a retry has another boundary.
   const auto fingerprint = sha256_hex(sha256_hex(options.body) + sha256_hex(wish.timeline) + sha256_hex(wish.sound));
   return create(context, request, body.dump(), fingerprint, [&] {
     const auto slot = take_voice_slot(context);
-    auto speech = voice::make_speech(wish);
-    if (!speech) refuse("invalid-field", speech.error().message, "/" + speech.error().where);
+    const voice::SaidRequest& said = wish;
+    auto speech = aligned ? voice::make_speech(context.config.voice, said) : voice::make_speech(wish);
+    if (!speech) {
+      const Error& error = speech.error();
+      const bool voices = error.code == ErrorCode::io || error.where.empty() || error.where == "voice";
+      if (voices) refuse("voice-failed", "the voice: " + error.message);
+      refuse("invalid-field", error.message, "/" + error.where);
+    }
     return *std::move(speech);
   });
 }
@@ -278,7 +294,7 @@ http::Response create_from_timeline(Context& context, http::Request& request) {
 }  // namespace
 
 http::Response create_speech(Context& context, http::Request& request) {
-  if (request.body_file) return create_from_timeline(context, request);
+  if (request.body_file) return create_from_form(context, request);
   refuse_without_voice(context);
   const auto body = body_object(request);
   refuse_unknown_members(body, body_members::speech_request);

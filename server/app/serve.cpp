@@ -245,6 +245,8 @@ void run_serve(const ServeOptions& options) {
   if (!program.empty() && program != "none") api_config.voice.command = {program};
   api_config.voice.wall_seconds = api::longest_speech_seconds;
   api_config.voice.temporary = blobs->temporary();
+  api_config.sound_reader = api_config.voice;
+  api_config.sound_reader.command = {voice::installed_sound_reader()};
   // Half of the threads at most: the others handle what else is asked.
   api_config.limits.max_exports = api_config.limits.max_voices = std::max(1U, options.threads / 2);
   api_config.version = SEMBLANTE_VERSION;

@@ -24,7 +24,8 @@ namespace {
 
 struct SayCommand {
   voice::VoiceRequest request;
-  std::string text, program, out, audio, captions, emotion, style = "normal", timeline, timeline_format, audio_in;
+  std::string text, program, out, audio, captions, emotion, style = "normal", timeline, timeline_format, audio_in,
+                                                            sound;
   double intensity = 1.0, fps = 30.0;
   std::uint32_t seed = 0;
   ClipOutput clip;
@@ -101,13 +102,15 @@ Result<voice::Speech> speak(const SayCommand& options) {
   return voice::make_speech(program_of(options), request);
 }
 
-Result<voice::Speech> read_timeline(const SayCommand& options) {
+/// Of --timeline, else of --sound.
+Result<voice::Speech> read_said(const SayCommand& options) {
   constexpr std::uint64_t most_sound_bytes = std::uint64_t{1} << 30U;
   const std::string timeline = bytes_of(options.timeline, max_timeline_bytes);
-  const std::string sound = bytes_of(options.audio_in, most_sound_bytes);
+  const std::string sound = bytes_of(options.timeline.empty() ? options.sound : options.audio_in, most_sound_bytes);
   voice::TimelineRequest request;
   request.timeline = timeline;
   request.sound = sound;
+  request.sound_reader.command = {voice::installed_sound_reader()};
   if (!options.timeline_format.empty())
     request.format = static_cast<TimelineFormat>(
         std::find(timeline_format_names.begin(), timeline_format_names.end(), options.timeline_format) -
@@ -115,7 +118,8 @@ Result<voice::Speech> read_timeline(const SayCommand& options) {
   request.text = text_of(options);
   request.language = options.request.language;
   read_manner(options, request);
-  return voice::make_speech(request);
+  const voice::SaidRequest& said = request;
+  return options.timeline.empty() ? voice::make_speech(program_of(options), said) : voice::make_speech(request);
 }
 
 void run(SayCommand& options) {
@@ -124,8 +128,11 @@ void run(SayCommand& options) {
   if (options.out.empty() && options.audio.empty() && options.captions.empty())
     throw CommandFailure(CommandFailure::bad_input, "say: give --out, --audio or --captions: nothing would be written");
   if (options.timeline.empty() && options.text.empty())
-    throw CommandFailure(CommandFailure::bad_input, "say: give a text, or --timeline");
-  const auto speech = options.timeline.empty() ? speak(options) : read_timeline(options);
+    throw CommandFailure(CommandFailure::bad_input, options.sound.empty()
+                                                        ? "say: give a text, or --timeline"
+                                                        : "say: --sound: give the text that is said in it");
+  const bool said = !options.timeline.empty() || !options.sound.empty();
+  const auto speech = said ? read_said(options) : speak(options);
   if (!speech) fail("say", speech.error());
 
   std::vector<std::string> warnings = speech->warnings;
@@ -173,7 +180,14 @@ void add_say_command(CLI::App& app, const std::string& sample_head) {
       ->check(CLI::IsMember(std::vector<std::string>(timeline_format_names.begin(), timeline_format_names.end())))
       ->needs(timeline)
       ->envname("SEMBLANTE_TIMELINE_FORMAT");
-  command->add_option("--audio-in", options->audio_in, "The sound of --timeline, a WAV file")
+  command
+      ->add_option(
+          "--sound", options->sound,
+          "A recording of the text in place of a voice: WAV, or what semblante-sound beside this program reads "
+          "(FLAC, Ogg with Vorbis or Opus, MP3). The voice says when in it is said what")
+      ->excludes(timeline)
+      ->envname("SEMBLANTE_SOUND");
+  command->add_option("--audio-in", options->audio_in, "The sound of --timeline, a file as of --sound")
       ->needs(timeline)
       ->envname("SEMBLANTE_AUDIO_IN");
   command->add_flag(

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/speech/alignment.h"
 #include "core/speech/loudness.h"
 #include "core/speech/marked_ssml.h"
 #include "core/speech/marked_text.h"
@@ -22,6 +23,18 @@ Error in(const char* part, const Error& error) {
   const bool pointer = error.where.starts_with('/');
   return {error.code, part + (pointer ? error.where : ""),
           error.where.empty() || pointer ? error.message : error.where + ": " + error.message};
+}
+
+/// Of frames whose text is another one. Of 8 recordings of four people and three synthetic voices 1.02 to 1.20, with
+/// the text of another 1.24 to 1.37.
+constexpr double doubtful_distance = 1.22;
+
+Result<MarkedText> marked_text_of(const std::string& text) {
+  if (const auto checked = check_text(text); !checked)
+    return in("text", {checked.error().code, "", checked.error().message});
+  auto read = read_marked_text(text);
+  if (!read) return in("text", {read.error().code, "", read.error().message});
+  return read;
 }
 
 void add_whole(MarkedText& marked, std::uint8_t expression, double intensity) {
@@ -83,15 +96,14 @@ Result<Speech> make_speech(const TimelineRequest& request) {
   if (!timeline) return in("timeline", timeline.error());
   MarkedText marked{text_of(*timeline), {}};
   if (!request.text.empty()) {
-    if (const auto checked = check_text(request.text); !checked) return checked.error();
-    auto read = read_marked_text(request.text);
-    if (!read) return in("text", {read.error().code, "", read.error().message});
+    auto read = marked_text_of(request.text);
+    if (!read) return read.error();
     marked = *std::move(read);
   }
   add_whole(marked, request.expression, request.intensity);
   std::optional<Recording> sound;
   if (!request.sound.empty()) {
-    auto read = read_wav(request.sound);
+    auto read = read_sound(request.sound_reader, request.sound);
     if (!read) return in("audio", read.error());
     sound = *std::move(read);
   }
@@ -110,6 +122,33 @@ Result<Speech> make_speech(const TimelineRequest& request) {
   SpeechOptions face = request.face;
   face.language = speech.sounds;
   speech.performance = speech_performance(speech.utterance, marked.emotions, face);
+  return speech;
+}
+
+Result<Speech> make_speech(const VoiceProgram& voice, const SaidRequest& request) {
+  if (const auto checked = check_language(request.language); !checked) return checked.error();
+  auto marked = marked_text_of(request.text);
+  if (!marked) return marked.error();
+  const auto sound = read_sound(request.sound_reader, request.sound);
+  if (!sound) return in("audio", sound.error());
+  VoiceRequest wish;
+  wish.text = marked->text;
+  wish.language = request.language;
+  const auto model = speak(voice, wish);
+  if (!model) return model.error();
+  auto aligned = align(*model, *sound);
+  if (!aligned) return in(aligned.error().code == ErrorCode::mismatch ? "text" : "audio", aligned.error());
+  add_whole(*marked, request.expression, request.intensity);
+  Speech speech;
+  speech.text = std::move(marked->text);
+  speech.utterance = std::move(aligned->utterance);
+  speech.utterance.voice = "recording";
+  if (!has_sound_table(request.language)) speech.warnings.push_back(no_table_warning(request.language));
+  if (aligned->distance > doubtful_distance)
+    speech.warnings.emplace_back("the sound hardly resembles the text: is this what is said?");
+  SpeechOptions face = request.face;
+  face.language = speech.sounds = request.language;
+  speech.performance = speech_performance(speech.utterance, marked->emotions, face);
   return speech;
 }
 

@@ -38,20 +38,29 @@ struct Speech {
 /// and makes the face. Blocks as speak(). Errors: those of check(), read_marked_text() and speak().
 Result<Speech> make_speech(const VoiceProgram& program, const SpeechRequest& request);
 
-/// What another voice has said, and how a face says it.
-struct TimelineRequest {
-  std::string_view timeline;  ///< a file of one of the formats
-  std::optional<TimelineFormat> format;
-  std::string_view sound;       ///< a WAV file; empty: there is none
-  std::string text;             ///< with marks; empty: what the timeline knows of it
+/// What somebody else has said, and how a face says it.
+struct SaidRequest {
+  std::string_view sound;       ///< a sound file (read_sound()); empty: there is none
+  std::string text;             ///< with marks
   std::string language;         ///< BCP 47
   std::uint8_t expression = 0;  ///< of the whole text, 0..6
   double intensity = 1.0;       ///< of `expression`
   SpeechOptions face;           ///< its language is `language`
+  VoiceProgram sound_reader = {};
+};
+
+/// What another voice has said when.
+struct TimelineRequest : SaidRequest {  ///< without a text: what the timeline knows of it
+  std::string_view timeline;            ///< a file of one of the formats
+  std::optional<TimelineFormat> format;
 };
 
 /// The face of a timeline, on the clock of its sound, to which no silence is added. Errors: `where` begins with
 /// "timeline", "audio", "text" or "language".
 Result<Speech> make_speech(const TimelineRequest& request);
+
+/// The face of a recording of the text, on its clock: `voice` speaks the text too, and what it says when is carried
+/// over (core/speech/alignment.h). Errors: `where` begins with "audio", "text", "language" or "voice".
+Result<Speech> make_speech(const VoiceProgram& voice, const SaidRequest& request);
 
 }  // namespace semblante::voice

@@ -13,6 +13,7 @@ namespace semblante::voice {
 namespace {
 
 constexpr const char* usual_name = "semblante-voice-espeak";
+constexpr const char* sound_reader_name = "semblante-sound";
 
 /// What the voice writes to standard error, for as long as it runs.
 class ErrorFile {
@@ -41,10 +42,10 @@ std::string with_last_words(std::string message, const std::string& words) {
   return last.empty() ? message : message + ": " + printable(last);
 }
 
-/// Has the voice answer to its end.
-Result<VoiceAnswer> ask(const VoiceProgram& program, const VoiceRequest& request) {
-  if (program.command.empty() || program.command[0].empty())
-    return Error{ErrorCode::missing, "voice", "there is no voice: " + std::string(usual_name) + " is not installed"};
+bool is_missing(const VoiceProgram& program) { return program.command.empty() || program.command[0].empty(); }
+
+/// Has the program answer to its end.
+Result<VoiceAnswer> ask(const VoiceProgram& program, std::string_view input) {
   const ErrorFile errors(program.temporary);
   if (errors.path().empty()) return Error{ErrorCode::io, "", "cannot make a temporary file"};
 
@@ -55,7 +56,7 @@ Result<VoiceAnswer> ask(const VoiceProgram& program, const VoiceRequest& request
   VoiceAnswer answer;
   std::optional<Error> fault;
   const auto exit = jobs::run_worker_process(
-      program.command, to_json(request), errors.path(), std::chrono::seconds(program.wall_seconds),
+      program.command, input, errors.path(), std::chrono::seconds(program.wall_seconds),
       [&](std::string_view line) {
         if (fault) return;
         if (const auto taken = answer.take(line); !taken) fault = taken.error();
@@ -76,12 +77,22 @@ Result<VoiceAnswer> ask(const VoiceProgram& program, const VoiceRequest& request
   return answer;
 }
 
-}  // namespace
+Result<VoiceAnswer> ask(const VoiceProgram& voice, const VoiceRequest& request) {
+  if (is_missing(voice))
+    return Error{ErrorCode::missing, "voice", "there is no voice: " + std::string(usual_name) + " is not installed"};
+  return ask(voice, to_json(request));
+}
 
-std::string installed_voice() {
-  const auto path = std::filesystem::path(jobs::own_executable()).parent_path() / usual_name;
+/// The program beside this one; empty if there is none.
+std::string installed(const char* name) {
+  const auto path = std::filesystem::path(jobs::own_executable()).parent_path() / name;
   return ::access(path.c_str(), X_OK) == 0 ? path.string() : std::string();
 }
+
+}  // namespace
+
+std::string installed_voice() { return installed(usual_name); }
+std::string installed_sound_reader() { return installed(sound_reader_name); }
 
 Result<Utterance> speak(const VoiceProgram& program, const VoiceRequest& request) {
   if (const auto checked = check(request); !checked) return checked.error();
@@ -96,6 +107,21 @@ Result<std::vector<VoiceName>> list_voices(const VoiceProgram& program) {
   auto answer = ask(program, request);
   if (!answer) return answer.error();
   return (*std::move(answer)).finish_list();
+}
+
+Result<Recording> read_sound(const VoiceProgram& reader, std::string_view file) {
+  if (file.starts_with("RIFF")) return read_wav(file);
+  if (file.size() > max_sound_file_bytes)
+    return Error{ErrorCode::too_large, "", "is longer than " + std::to_string(max_sound_file_bytes >> 20U) + " MiB"};
+  if (is_missing(reader))
+    return Error{ErrorCode::unsupported, "",
+                 "is no WAV file, and " + std::string(sound_reader_name) + ", which reads others, is not installed"};
+  auto answer = ask(reader, file);
+  // A reader that crashes or reaches a limit does so by the file.
+  if (!answer) return Error{ErrorCode::malformed, "", answer.error().message};
+  auto sound = (*std::move(answer)).finish();
+  if (!sound) return Error{ErrorCode::malformed, "", sound.error().message};
+  return Recording{sound->sample_rate, std::move(sound->samples)};
 }
 
 }  // namespace semblante::voice

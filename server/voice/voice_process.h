@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/speech/utterance.h"
+#include "core/speech/wav.h"
 #include "core/types/result.h"
 #include "server/voice/voice_protocol.h"
 
@@ -21,6 +22,8 @@ struct VoiceProgram {
 
 /// The voice that is installed beside this program, or built beside it; empty if there is none.
 std::string installed_voice();
+/// The same of semblante-sound (sound/README.md), which reads sound files.
+std::string installed_sound_reader();
 
 /// Starts the voice, with its limits in force before it gets the request, and reads its answer. A voice that breaks the
 /// protocol is killed at the first wrong line. Blocks until the process has ended. Errors: those of check() and
@@ -30,5 +33,9 @@ Result<Utterance> speak(const VoiceProgram& program, const VoiceRequest& request
 
 /// The voices that the program knows. Errors as those of speak().
 Result<std::vector<VoiceName>> list_voices(const VoiceProgram& program);
+
+/// The sound of a file, its channels mixed: of WAV, read here, or of what `reader` knows (FLAC, Ogg with Vorbis or
+/// Opus, MP3). Errors: of the file, or as those of speak().
+Result<Recording> read_sound(const VoiceProgram& reader, std::string_view file);
 
 }  // namespace semblante::voice

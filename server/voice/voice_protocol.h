@@ -15,7 +15,8 @@ inline constexpr std::size_t max_text_bytes = 20'000;
 inline constexpr std::size_t max_request_bytes = 160'000;  ///< every byte of the text escaped as six, and the rest
 inline constexpr std::size_t max_line_bytes = 65'536;      ///< of an answer
 inline constexpr std::size_t max_events = 200'000;         ///< of all kinds together
-inline constexpr double max_seconds = max_speech_seconds;  ///< of sound
+inline constexpr std::size_t max_sound_file_bytes = std::size_t{256} << 20U;  ///< read by semblante-sound
+inline constexpr double max_seconds = max_speech_seconds;                     ///< of sound
 inline constexpr std::size_t max_symbol_bytes = 32;
 inline constexpr std::size_t max_name_bytes = 200;
 inline constexpr double least_factor = 0.5, most_factor = 2.0;  ///< of rate and pitch

@@ -58,8 +58,28 @@ TEST(Say, TimelineOfAnotherVoice_NeedsNoVoice) {
   fails({}, "give a text, or --timeline");
   fails({"--timeline", work.write("bad.tsv", "0.0\tX\n0.1\tQ\n")}, "line 2");
   fails({"--timeline", hi, "--audio", work.path("b.wav")}, "--audio-in");
-  fails({"--timeline", hi, "--audio-in", hi}, "no WAV");
+  fails({"--timeline", hi, "--audio-in", hi}, "audio: is no ");
   fails({"--timeline", hi, "--timeline-format", "smoke"}, "--timeline-format");
+}
+
+TEST(Say, ARecordingOfTheText_IsSaidOnItsClock) {
+  const Workspace work;
+  ASSERT_EQ(run_semblante({"say", "Mamma mia!", "--language", "en", "--voice-program", beeps, "--rate", "0.8",
+                           "--audio", work.path("said.wav")})
+                .exit_code,
+            0);
+  const auto done =
+      run_semblante({"say", "[joy]Mamma mia![/joy]", "--language", "en", "--voice-program", beeps, "--sound",
+                     work.path("said.wav"), "--out", work.path("a.json"), "--audio", work.path("a.wav")});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_EQ(read_text(work.path("a.wav")), read_text(work.path("said.wav"))) << "the recording as it is";
+  const auto script = read_performance(read_text(work.path("a.json")));
+  ASSERT_TRUE(script.ok());
+  EXPECT_TRUE(Performance::compile(*script).ok());
+
+  const auto refused =
+      run_semblante({"say", "--sound", work.path("said.wav"), "--language", "en", "--out", work.path("b.json")});
+  EXPECT_NE(refused.err.find("give the text that is said in it"), std::string::npos) << refused.err;
 }
 
 TEST(Say, ListsVoices) {

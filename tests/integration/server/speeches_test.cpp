@@ -253,6 +253,40 @@ TEST_F(Speeches, TimelineOfAnotherVoice_BecomesAFaceOnItsSound_WithoutAVoice) {
   expect_problem(ask("POST", "/v1/speeches", "x", form_type), 400, "malformed-request");
 }
 
+TEST_F(Speeches, ARecordingWithItsText_BecomesAFaceOnItsClock) {
+  start();
+  const auto send = [&](const json& options, const std::string& sound) {
+    return ask("POST", "/v1/speeches", form_of({{"options", options.dump()}, {"audio", sound}}), form_type);
+  };
+  json slower = hello_;
+  slower["rate"] = 0.8;
+  const auto first = path_of(say(slower));
+  const std::string sound = ask("GET", first + "/audio").body;
+  const json options = {{"language", "en"}, {"text", "[joy]Mamma mia![/joy]"}};
+  const auto made = send(options, sound);
+  const auto path = path_of(made);
+  EXPECT_EQ(json_of(made)["made_by"], "recording");
+  EXPECT_EQ(json_of(made)["text"], "Mamma mia!");
+  EXPECT_TRUE(ask("GET", path + "/audio").body == sound);
+  const auto words = json_of(ask("GET", first + "/timeline"))["words"],
+             found = json_of(ask("GET", path + "/timeline"))["words"];
+  ASSERT_EQ(found.size(), words.size());
+  for (std::size_t i = 0; i < words.size(); ++i)
+    EXPECT_NEAR(found[i]["time"].get<double>(), words[i]["time"].get<double>(), 40.0) << i;
+
+  expect_problem(send({{"language", "en"}}, sound), 422, "invalid-field", "/text");
+  expect_problem(send({{"language", "en"}, {"text", "a"}, {"format", "polly"}}, sound), 422, "invalid-field",
+                 "/format");
+  expect_problem(send(options, "no sound"), 422, "invalid-field", "/audio");
+  expect_problem(send({{"language", "e n"}, {"text", "a"}}, sound), 422, "invalid-field", "/language");
+  server_.reset();
+  start({}, "none");
+  expect_problem(send(options, sound), 501, "no-voice");
+  server_.reset();
+  start({}, "/bin/false");
+  expect_problem(send(options, sound), 502, "voice-failed");
+}
+
 TEST_F(Speeches, WithoutAVoice_OrWithOneThatFails_TheRestWorks) {
   start({}, "none");
   expect_problem(say(hello_), 501, "no-voice");
