@@ -25,8 +25,8 @@ Error in(const char* part, const Error& error) {
           error.where.empty() || pointer ? error.message : error.where + ": " + error.message};
 }
 
-/// Of frames whose text is another one. Of 8 recordings of four people and three synthetic voices 1.02 to 1.20, with
-/// the text of another 1.24 to 1.37.
+/// Of frames (tests/bench/README.md, bench_alignment): the text that is said has 1.02 to 1.20, in recordings of a
+/// reader and of three synthetic voices; another text 1.24 to 1.37.
 constexpr double doubtful_distance = 1.22;
 
 Result<MarkedText> marked_text_of(const std::string& text) {

@@ -1,13 +1,13 @@
 import { expressions } from '@protocol/generated/mpeg4.ts';
 import type { Api } from '../../net/api.ts';
 import type { Speech, SpeechRequest, Timeline, VoiceName } from '../../net/types.ts';
-import { soundEndings } from '../page/drop_place.ts';
 import { h, redraw, replace } from '../shared/dom.ts';
 import { chooseFile } from '../shared/file_button.ts';
 import { icon } from '../shared/icons.ts';
 import { capital } from '../shared/names.ts';
 import { Slider } from '../shared/slider.ts';
 import { language, nameOf, t } from '../../words/words.ts';
+import { soundEndings } from './sound_files.ts';
 import type { SpeakModel } from './speak_model.ts';
 import { wordsOf, type Word } from './spoken_words.ts';
 import { voicesOf } from './voices_of.ts';
