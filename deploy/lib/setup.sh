@@ -15,7 +15,7 @@ product_packages=(build-essential cmake ninja-build pkg-config
   'libc++abi-14-dev-wasm32|libc++abi-dev-wasm32|libc++abi-18-dev-wasm32'
   'libclang-rt-14-dev-wasm32|libclang-rt-dev-wasm32|libclang-rt-18-dev-wasm32' binaryen curl ca-certificates)
 # What the native client and the tests need beyond that.
-test_packages=(libegl-dev libgles-dev libegl1 libgles2 libgl1-mesa-dri
+test_packages=(libegl-dev libgles-dev libegl1 libgles2 libgl1-mesa-dri libsdl2-dev
   g++-aarch64-linux-gnu 'qemu-user-static|qemu-user' clang 'libclang-rt-dev|libclang-rt-14-dev|libclang-rt-18-dev'
   libeigen3-dev libgtest-dev libgmock-dev 'clang-format-14|clang-format' 'clang-tidy-14|clang-tidy'
   'chromium|chromium-browser' fonts-dejavu-core python3 python3-yaml git ccache)

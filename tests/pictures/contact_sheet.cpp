@@ -3,11 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-// The header defines functions; those unused here would be warnings.
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wunused-function"
-#include <stb/stb_easy_font.h>
-#pragma GCC diagnostic pop
+#include "clients/native/render/text_quads.h"
 
 namespace semblante::pictures {
 namespace {
@@ -18,29 +14,14 @@ constexpr int gap = 12;
 constexpr int label_height = 24;
 constexpr int title_height = 44;
 
-/// stb_easy_font writes four of these vertices per quad.
-struct FontVertex {
-  float x, y, z;
-  std::uint8_t color[4];
-};
-
 }  // namespace
 
 void draw_label(render::Picture& picture, std::string_view text, int x, int y, int scale, render::Rgb color) {
-  std::string printable(text);
-  for (char& c : printable) {
-    c = c < ' ' || c > '~' ? '?' : c;
-  }
-  std::vector<FontVertex> quads((printable.size() + 1) * 70);
-  const int count = stb_easy_font_print(0, 0, printable.data(), nullptr, quads.data(),
-                                        static_cast<int>(quads.size() * sizeof(FontVertex)));
-  for (int q = 0; q < count; ++q) {
-    const FontVertex& a = quads[static_cast<std::size_t>(q) * 4];
-    const FontVertex& b = quads[static_cast<std::size_t>(q) * 4 + 2];
+  for (const render::TextQuad& quad : render::text_quads(text)) {
     const auto clamp_x = [&](float v) { return std::clamp(x + static_cast<int>(v * scale), 0, picture.width); };
     const auto clamp_y = [&](float v) { return std::clamp(y + static_cast<int>(v * scale), 0, picture.height); };
-    for (int row = clamp_y(a.y); row < clamp_y(b.y); ++row) {
-      for (int column = clamp_x(a.x); column < clamp_x(b.x); ++column) {
+    for (int row = clamp_y(quad.top); row < clamp_y(quad.bottom); ++row) {
+      for (int column = clamp_x(quad.left); column < clamp_x(quad.right); ++column) {
         std::copy(color.begin(), color.end(),
                   picture.rgb.begin() + (static_cast<std::ptrdiff_t>(row) * picture.width + column) * 3);
       }

@@ -46,6 +46,8 @@ class LiveStream {
   /// The state of the stream, for players to follow and to publish by: next() sends what it has to send.
   runtime::Stream& machine() { return machine_; }
   [[nodiscard]] bool connected() const { return machine_.state() == SEMBLANTE_STREAM_OPEN; }
+  /// The stream has ended for good, or was closed: next() opens no further connection.
+  [[nodiscard]] bool ended() const { return machine_.state() == SEMBLANTE_STREAM_CLOSED; }
   [[nodiscard]] const std::optional<Header>& header() const { return machine_.header(); }
   /// The resume point for the next hello.
   [[nodiscard]] const std::optional<ResumePoint>& resume() const { return machine_.resume(); }

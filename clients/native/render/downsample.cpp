@@ -4,11 +4,11 @@
 #include <array>
 #include <cmath>
 
+#include "clients/native/render/backdrop.h"
+
 namespace semblante::render {
 namespace {
 
-constexpr std::array<float, 3> backdrop_top = {0.80F, 0.81F, 0.83F};  // linear
-constexpr std::array<float, 3> backdrop_bottom = {0.52F, 0.53F, 0.55F};
 constexpr int encode_steps = 4096;
 
 float decode_srgb(float v) { return v <= 0.04045F ? v / 12.92F : std::pow((v + 0.055F) / 1.055F, 2.4F); }

@@ -115,4 +115,38 @@ void main() {
 }
 )";
 
+/// Puts a head, drawn premultiplied, over the backdrop of a window, and encodes as sRGB. A triangle that covers it all.
+inline constexpr const char* present_vertex = R"(#version 300 es
+out vec2 place;
+void main() {
+  place = vec2(gl_VertexID == 1 ? 2.0 : 0.0, gl_VertexID == 2 ? 2.0 : 0.0);
+  gl_Position = vec4(place * 2.0 - 1.0, 0.0, 1.0);
+}
+)";
+inline constexpr const char* present_fragment = R"(#version 300 es
+precision highp float;
+in vec2 place;
+uniform sampler2D head;
+uniform vec3 top;
+uniform vec3 bottom;
+out vec4 color;
+void main() {
+  vec4 front = texture(head, place);
+  vec3 light = clamp(front.rgb + mix(bottom, top, place.y) * (1.0 - front.a), 0.0, 1.0);
+  vec3 bright = 1.055 * pow(light, vec3(1.0 / 2.4)) - 0.055;
+  color = vec4(mix(bright, light * 12.92, lessThanEqual(light, vec3(0.0031308))), 1.0);
+}
+)";
+
+inline constexpr const char* words_vertex = R"(#version 300 es
+layout(location = 0) in vec2 place;
+void main() { gl_Position = vec4(place, 0.0, 1.0); }
+)";
+inline constexpr const char* words_fragment = R"(#version 300 es
+precision mediump float;
+uniform vec4 tint;
+out vec4 color;
+void main() { color = tint; }
+)";
+
 }  // namespace semblante::render::shaders

@@ -1,0 +1,125 @@
+// semblante-viewer on SDL's screen without a screen, against the real server.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include <gtest/gtest.h>
+#include <stb/stb_image.h>
+
+#include "clients/native/client/face_package.h"
+#include "clients/native/render/renderer.h"
+#include "protocol/cpp/quantizers.h"
+#include "tests/integration/client/sample_server.h"
+#include "tests/support/tcp_proxy.h"
+#include "tests/support/wait.h"
+
+namespace semblante::testing {
+namespace {
+
+constexpr int side = 256;
+/// Of a window's picture and a file's of the same face, in levels of 255: four samples a pixel instead of nine differ
+/// at edges, on average over all channels by less than this. Per channel of a single pixel up to half of the range.
+constexpr double largest_mean_difference = 1.0;
+
+render::Picture read_picture(const std::filesystem::path& path) {
+  int width = 0;
+  int height = 0;
+  int channels = 0;
+  stbi_uc* pixels = stbi_load(path.c_str(), &width, &height, &channels, 3);
+  EXPECT_NE(pixels, nullptr) << path;
+  render::Picture picture(width, height, {0, 0, 0});
+  if (pixels != nullptr) std::copy_n(pixels, picture.rgb.size(), picture.rgb.begin());
+  stbi_image_free(pixels);
+  return picture;
+}
+
+std::vector<std::string> view(const std::string& address, const std::vector<std::string>& options) {
+  setenv("SDL_VIDEODRIVER", "offscreen", 1);  // NOLINT(concurrency-mt-unsafe): before any thread
+  std::vector<std::string> command = {SEMBLANTE_VIEWER, address, "--size", std::to_string(side), "--quality", "high"};
+  command.insert(command.end(), options.begin(), options.end());
+  return command;
+}
+
+std::string stream_address(const SampleServer& server, const std::string& stream) {
+  return "ws" + server.url().substr(4) + "/v1/streams/" + stream;
+}
+
+/// The picture that semblante-render and semblante-client draw of these FAPs.
+render::Picture drawn_to_a_file(const client::Face& face, const semblante_frame& frame) {
+  const FeaturePointSet points = face.feature_points();
+  auto scene = render::build_scene(face.model(), {.points = points, .role_of_vertex = face.roles()});
+  EXPECT_TRUE(scene);
+  auto renderer = render::Renderer::create(*std::move(scene));
+  EXPECT_TRUE(renderer) << renderer.error().message;
+  EXPECT_EQ(semblante_head_set_frame(face.head(), &frame), SEMBLANTE_OK);
+  EXPECT_TRUE(renderer->set_positions(face.positions()));
+  auto picture = renderer->draw(render::View::front, render::Subject::all, {side, side});
+  EXPECT_TRUE(picture);
+  return *std::move(picture);
+}
+
+TEST(Viewer, AStreamInAWindow_LooksLikeItsPictureInAFile) {
+  const SampleServer server;
+  server.create_stream("window");
+  auto face = client::load_face(server.http(), "sample", {.lod = std::nullopt, .max_vertices = 20'000});
+  ASSERT_TRUE(face) << face.error().message;
+  for (const std::string& warning : client::fetch_images(server.http(), *face)) ADD_FAILURE() << warning;
+  std::vector<render::Picture> windows;
+  for (const double jaw : {0.0, 800.0}) {
+    server.post_frames("window", R"([{"faps":{"3":)" + std::to_string(jaw) + "}}]");
+    const auto path = server.folder() / ("window-" + std::to_string(windows.size()) + ".png");
+    ChildProcess process(view(stream_address(server, "window"), {"--picture", path.string(), "--after", "1"}));
+    ASSERT_EQ(process.wait(patience), 0);
+    windows.push_back(read_picture(path));
+    semblante_frame frame{};
+    const double step = standard_quantizers()[3];
+    frame.fap[3] = static_cast<float>(std::round(jaw / step) * step);
+    const render::Picture file = drawn_to_a_file(*face, frame);
+    ASSERT_EQ(windows.back().rgb.size(), file.rgb.size());
+    EXPECT_LT(render::mean_difference(windows.back(), file), largest_mean_difference);
+  }
+  EXPECT_GT(render::mean_difference(windows[0], windows[1]), 2 * largest_mean_difference) << "the mouth has opened";
+}
+
+TEST(Viewer, TheDemo_MovesAndComesBackAfterTheServerWasAway) {
+  const SampleServer server;
+  const auto& address = server.http().server().url;
+  TcpProxy proxy({.target_port = static_cast<std::uint16_t>(std::stoi(address.port))});
+  ChildProcess process(view("http://127.0.0.1:" + std::to_string(proxy.port()), {}));
+  const auto expect_line = [&](const std::string& wanted) {
+    std::string seen;
+    for (int i = 0; i < 20; ++i) {
+      const std::string line = process.read_line(patience);
+      if (line.find(wanted) != std::string::npos) return;
+      seen += line + "\n";
+    }
+    FAIL() << "instead of \"" << wanted << "\":\n" << seen;
+  };
+  expect_line("vertices");
+  expect_line("showing");
+  proxy.refuse(true);
+  proxy.cut();
+  expect_line("The connection was lost");
+  proxy.refuse(false);
+  expect_line("showing");
+  process.interrupt();
+  EXPECT_EQ(process.wait(patience), 0);
+}
+
+TEST(Viewer, NoSuchStream_SaysSoAndWaitsForIt) {
+  const SampleServer server;
+  const auto path = server.folder() / "late.png";
+  ChildProcess process(view(stream_address(server, "late"), {"--picture", path.string()}));
+  std::string line = process.read_line(patience);
+  for (int i = 0; i < 5 && line.find("There is no stream \"late\"") == std::string::npos; ++i)
+    line = process.read_line(patience);
+  EXPECT_NE(line.find("There is no stream \"late\""), std::string::npos) << line;
+  server.create_stream("late");
+  server.post_frames("late", R"([{"faps":{"3":100}}])");
+  EXPECT_EQ(process.wait(patience), 0);
+  EXPECT_TRUE(std::filesystem::exists(path));
+}
+
+}  // namespace
+}  // namespace semblante::testing
