@@ -3,8 +3,9 @@
 #include <chrono>
 #include <filesystem>
 #include <iostream>
-#include <map>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <thread>
 
 #include <CLI/CLI.hpp>
@@ -32,13 +33,17 @@ struct Arguments {
   client::ServerOptions server;
   std::string stream, model;
   std::uint32_t max_vertices = 20'000;
-  Quality quality = Quality::automatic;
+  std::string quality = "auto";
   std::string subject = "all";
   std::string size = "720x720";
   bool fullscreen = false;
   std::filesystem::path picture;
   double after = 0;
 };
+
+Quality quality_of(std::string_view name) {
+  return name == "high" ? Quality::high : name == "low" ? Quality::low : Quality::automatic;
+}
 
 /// Says on standard output what changed, for the journal of a device without a keyboard.
 class Log {
@@ -84,7 +89,7 @@ Status run(Arguments arguments) {
     return std::move(window).error();
   }
   Follower follower(*std::move(server), arguments.stream, arguments.model, arguments.max_vertices);
-  auto made = Show::create(follower, {*subject, arguments.quality});
+  auto made = Show::create(follower, {*subject, quality_of(arguments.quality)});
   if (!made) {
     return std::move(made).error();
   }
@@ -137,7 +142,6 @@ Status run(Arguments arguments) {
 
 // Only a mistake in the options themselves throws outside a try: it may end the program.
 int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape)
-  using semblante::viewer::Quality;
   semblante::viewer::Arguments arguments;
   CLI::App app{
       "Shows the face of a stream. A drag or one finger turns it, the wheel or two fingers zoom, a double click looks "
@@ -158,11 +162,10 @@ int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape)
                  "begin with the level of detail with at most this many vertices")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  const std::map<std::string, Quality> qualities = {
-      {"auto", Quality::automatic}, {"low", Quality::low}, {"high", Quality::high}};
   app.add_option("--quality", arguments.quality,
                  "auto: cheaper when less than 30 pictures a second are drawn; high: never; low: at once")
-      ->transform(CLI::CheckedTransformer(qualities));
+      ->check(CLI::IsMember({"auto", "low", "high"}))
+      ->capture_default_str();
   app.add_option("--picture", arguments.picture, "write the window as this PNG file and end");
   app.add_option("--after", arguments.after, "seconds from the first picture of the face to --picture")
       ->check(CLI::Range(0.0, 3600.0))

@@ -1,7 +1,7 @@
 // semblante-viewer on SDL's screen without a screen, against the real server.
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <cstdlib>
 
 #include <gtest/gtest.h>
@@ -18,9 +18,9 @@ namespace semblante::testing {
 namespace {
 
 constexpr int side = 256;
-/// Of a window's picture and a file's of the same face, in levels of 255: four samples a pixel instead of nine differ
-/// at edges, on average over all channels by less than this. Per channel of a single pixel up to half of the range.
-constexpr double largest_mean_difference = 1.0;
+/// Of a window's picture and a file's of the same face, in levels of 255 on average over all channels: four samples a
+/// pixel instead of nine differ at edges. 0.4 was measured, and 78 for a single pixel.
+constexpr double largest_mean_difference = 0.6;
 
 render::Picture read_picture(const std::filesystem::path& path) {
   int width = 0;
@@ -66,20 +66,26 @@ TEST(Viewer, AStreamInAWindow_LooksLikeItsPictureInAFile) {
   ASSERT_TRUE(face) << face.error().message;
   for (const std::string& warning : client::fetch_images(server.http(), *face)) ADD_FAILURE() << warning;
   std::vector<render::Picture> windows;
-  for (const double jaw : {0.0, 800.0}) {
-    server.post_frames("window", R"([{"faps":{"3":)" + std::to_string(jaw) + "}}]");
+  // The neutral face, and one with an open jaw that looks aside.
+  for (const std::array<double, 2> faps : {std::array{0.0, 0.0}, std::array{800.0, 20'000.0}}) {
+    const std::string frames = R"([{"faps":{"3":)" + std::to_string(faps[0]) + R"(,"49":)" + std::to_string(faps[1]);
+    server.post_frames("window", frames + "}}]");
     const auto path = server.folder() / ("window-" + std::to_string(windows.size()) + ".png");
     ChildProcess process(view(stream_address(server, "window"), {"--picture", path.string(), "--after", "1"}));
     ASSERT_EQ(process.wait(patience), 0);
     windows.push_back(read_picture(path));
+    // On the wire a FAP is a whole number of quantizer steps.
+    const QuantizerSteps& steps = standard_quantizers();
     semblante_frame frame{};
-    const double step = standard_quantizers()[3];
-    frame.fap[3] = static_cast<float>(std::round(jaw / step) * step);
+    frame.fap[3] = static_cast<float>(*quantize(faps[0], steps[3]) * steps[3]);
+    frame.fap[49] = static_cast<float>(*quantize(faps[1], steps[49]) * steps[49]);
     const render::Picture file = drawn_to_a_file(*face, frame);
     ASSERT_EQ(windows.back().rgb.size(), file.rgb.size());
     EXPECT_LT(render::mean_difference(windows.back(), file), largest_mean_difference);
+    RecordProperty("mean_difference_" + std::to_string(windows.size()),
+                   std::to_string(render::mean_difference(windows.back(), file)));
   }
-  EXPECT_GT(render::mean_difference(windows[0], windows[1]), 2 * largest_mean_difference) << "the mouth has opened";
+  EXPECT_GT(render::mean_difference(windows[0], windows[1]), 5 * largest_mean_difference) << "the head has turned";
 }
 
 TEST(Viewer, TheDemo_MovesAndComesBackAfterTheServerWasAway) {
