@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/anatomy/point_lookup.h"
+#include "core/anatomy/pupil_hole.h"
 #include "core/geometry/triangle_shape.h"
 
 namespace semblante {
@@ -169,7 +170,9 @@ std::optional<IrisOfEye> find_iris(const Model& model, const Surface& surface, s
     const double length = glm::length(d);
     return length > 0.0 ? d / length : glm::dvec3(0.0, 0.0, 1.0);
   };
-  if (pupil->vertex) {
+  if (const auto hole = middle_of_pupil_hole(model, surface, parts, role, center, direction(), 0.5 * *iris_diameter)) {
+    middle = *hole;
+  } else if (pupil->vertex) {
     const SurfaceVertexId marked = surface.surface_of[pupil->vertex->value()];
     if (const auto better = middle_of_flat_face(model, surface, marked, direction())) middle = *better;
   }

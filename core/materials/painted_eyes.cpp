@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
+#include "core/geometry/triangle_shape.h"
 #include "core/materials/eye_texture.h"
 #include "core/materials/plain_materials.h"
 
@@ -60,7 +61,8 @@ bool moves_as_iris(RigidMotion motion) { return motion == RigidMotion::left_iris
 struct PaintedTriangle {
   const PaintedEye* eye = nullptr;
   Paint paint = Paint::none;
-  bool is_inside = false;  ///< of an iris in front of the eye's inside, which is dark
+  bool is_inside = false;      ///< of an iris in front of the eye's inside, which is dark
+  bool is_inner_wall = false;  ///< faces the pivot: seen only through a pupil that is a hole, and dark
 };
 
 /// The painting of a model's eyes.
@@ -80,6 +82,7 @@ class EyePainter {
       if (moves_as_iris(motion)) has_moving_iris_[is_left_eye(motion) ? 0 : 1] = true;
     }
     find_corneas();
+    measure_walls();
   }
 
   /// Without an eye if the triangle is not of a plain eyeball.
@@ -96,7 +99,7 @@ class EyePainter {
     if (plain != Plain::sclera && plain != Plain::iris) return {};
     const std::optional<PaintedEye>& eye = look_.eyes[*side];
     if (!eye || !can_be_painted(*eye)) return {};
-    return {&*eye, is_cornea ? Paint::cornea : Paint::eye, plain == Plain::iris};
+    return {&*eye, is_cornea ? Paint::cornea : Paint::eye, plain == Plain::iris, is_inner_wall(*eye, corners)};
   }
 
   /// In radii of the iris; nothing of the front of an eye is farther from its axis.
@@ -119,6 +122,13 @@ class EyePainter {
   }
 
  private:
+  /// Sums over the triangles of a part, with twice their areas.
+  struct Walls {
+    double volume = 0.0;  ///< that they enclose with the pivot; negative if their fronts are inside
+    double area = 0.0;
+    double distance = 0.0;  ///< from the pivot, weighted with the area
+  };
+
   /// 0 left, 1 right; empty if the triangle is not of an eye.
   [[nodiscard]] std::optional<std::size_t> side_of(const Triangle& corners) const {
     const PartId part = part_of(corners);
@@ -151,6 +161,41 @@ class EyePainter {
     for (std::size_t p = 0; p < moves.size(); ++p) is_cornea_[p] = is_cornea_[p] && !moves[p];
   }
 
+  /// A triangle from the pivot: its middle, and the normal of its front, twice its area long.
+  struct FromPivot {
+    glm::dvec3 middle;
+    glm::dvec3 normal;
+  };
+
+  [[nodiscard]] FromPivot from_pivot(const PaintedEye& eye, const Triangle& corners) const {
+    const auto at = [&](std::size_t c) { return glm::dvec3(model_.positions[corners[c]] - eye.pivot); };
+    return {(at(0) + at(1) + at(2)) / 3.0, area_vector(at(0), at(1), at(2))};
+  }
+
+  void measure_walls() {
+    walls_.assign(parts_.size(), {});
+    for (const Triangle& corners : model_.triangles) {
+      const auto side = side_of(corners);
+      if (!side || !look_.eyes[*side]) continue;
+      const FromPivot triangle = from_pivot(*look_.eyes[*side], corners);
+      Walls& walls = walls_[part_of(corners).value()];
+      const double area = glm::length(triangle.normal);
+      walls.volume += glm::dot(triangle.normal, triangle.middle);
+      walls.area += area;
+      walls.distance += area * glm::length(triangle.middle);
+    }
+  }
+
+  /// Whether a triangle faces the pivot and lies behind another wall: single triangles of a ball may have their corners
+  /// in the wrong order, or all of them.
+  [[nodiscard]] bool is_inner_wall(const PaintedEye& eye, const Triangle& corners) const {
+    const Walls& walls = walls_[part_of(corners).value()];
+    const FromPivot triangle = from_pivot(eye, corners);
+    const double distance = glm::length(triangle.middle);
+    const double outwards = (walls.volume < 0.0 ? -1.0 : 1.0) * glm::dot(triangle.normal, triangle.middle);
+    return outwards < -0.5 * glm::length(triangle.normal) * distance && distance * walls.area < 0.97 * walls.distance;
+  }
+
   /// Whether the middle of a triangle is before the iris or on it.
   [[nodiscard]] bool is_in_front(const PaintedEye& eye, const Triangle& corners) const {
     const glm::vec3 sum = model_.positions[corners[0]] + model_.positions[corners[1]] + model_.positions[corners[2]];
@@ -166,6 +211,7 @@ class EyePainter {
   std::array<bool, 2> has_own_iris_{};     ///< the file gives the eye a look of its own
   std::array<bool, 2> has_moving_iris_{};  ///< some vertices move as its iris
   std::vector<bool> is_cornea_;            ///< by PartId
+  std::vector<Walls> walls_;               ///< by PartId
 };
 
 /// Texture coordinates of single corners, in a model that may have none.
@@ -287,6 +333,10 @@ void paint_eyes(Model& model, const Surface& surface, std::span<const Part> part
   CornerUvs uvs(model);
   for (std::size_t t = 0; t < painted.size(); ++t) {
     if (painted[t].paint == Paint::none) continue;
+    if (painted[t].is_inner_wall && painted[t].paint == Paint::eye) {
+      uvs.set_all(t, black_place);
+      continue;
+    }
     std::array<std::optional<glm::vec2>, 3> places;
     for (std::size_t c = 0; c < 3; ++c) places[c] = painter.texture_place(*painted[t].eye, model.triangles[t][c], span);
     if (!places[0] || !places[1] || !places[2]) {

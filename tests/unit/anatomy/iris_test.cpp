@@ -117,6 +117,54 @@ TEST(Iris, OfAnEyeWithoutAVertexAtThePupil_IsAboutTheMiddleOfTheFlatFaceThere) {
   EXPECT_LT(found.iris->shape.bend, 0.0F) << "one ring: bent as a ball is";
 }
 
+/// The middle of the cap is open, and with `depth` its rim has a wall that leads inwards. Looks along `axis`.
+Model eye_with_a_hole(float hole, float depth, const glm::vec3& axis) {
+  Model eye = cap(10.0F, {hole, 1.5F * hole, 2.0F, 2.9F, 4.0F, 6.0F}, false);
+  eye.triangles.erase(eye.triangles.begin(), eye.triangles.begin() + 6);  // the octagon in the middle
+  if (depth > 0.0F) {
+    const auto inner = static_cast<std::uint32_t>(eye.positions.size());
+    for (std::uint32_t k = 0; k < 8; ++k) eye.positions.push_back(eye.positions[k] - glm::vec3(0.0F, 0.0F, depth));
+    for (std::uint32_t k = 0; k < 8; ++k) {
+      const std::uint32_t next = (k + 1) % 8;
+      eye.triangles.push_back({k, inner + k, next});
+      eye.triangles.push_back({next, inner + k, inner + next});
+    }
+  }
+  const glm::vec3 left = glm::normalize(glm::cross(glm::vec3(0.0F, 1.0F, 0.0F), axis));
+  const glm::vec3 up = glm::cross(axis, left);
+  for (glm::vec3& p : eye.positions) p = p.x * left + p.y * up + p.z * axis;
+  eye.primitives[0].triangle_count = static_cast<std::uint32_t>(eye.triangles.size());
+  return eye;
+}
+
+TEST(Iris, OfAPupilThatIsAHole_IsAboutTheHole_WhereverThePupilIsMarked) {
+  const glm::vec3 axis = glm::normalize(glm::vec3(0.12F, -0.04F, 1.0F));
+  for (const float depth : {0.0F, 0.5F}) {
+    const Model eye = eye_with_a_hole(0.9F, depth, axis);
+    // A corner of the rim, and a place on the film of tears over the eye.
+    for (const glm::vec3& marked : {eye.positions[3], glm::vec3(0.0F, 0.0F, 11.0F)}) {
+      const Found found = find(eye, {{testing::fp("3.5"), std::nullopt, marked}});
+      ASSERT_TRUE(found.iris.has_value()) << found.why_not;
+      EXPECT_LT(glm::distance(found.iris->shape.axis, axis), 1e-5F) << depth;
+    }
+  }
+}
+
+TEST(Iris, AHoleThatIsNoPupil_IsNotItsMiddle) {
+  const glm::vec3 axis(0.0F, 0.0F, 1.0F);
+  const FeaturePointSet marked = {{testing::fp("3.5"), std::nullopt, glm::vec3(0.0F, 0.0F, 10.0F)}};
+  // A small bright disc over the iris, to one side: a ring as well, with its front inside.
+  Model disc = cap(10.5F, {0.4F, 0.7F}, true);
+  for (glm::vec3& p : disc.positions) p += glm::vec3(0.8F, 0.8F, 0.0F);
+  // A pore at the border of the iris.
+  const Model pore = eye_with_a_hole(0.9F, 0.0F, glm::normalize(glm::vec3(0.3F, 0.0F, 1.0F)));
+  for (const Model& eye : {joined(cap(10.0F, {0.9F, 2.0F, 2.9F, 4.0F, 6.0F}, true), disc), pore}) {
+    const Found found = find(eye, marked);
+    ASSERT_TRUE(found.iris.has_value()) << found.why_not;
+    EXPECT_LT(glm::distance(found.iris->shape.axis, axis), 1e-6F);
+  }
+}
+
 TEST(Iris, OfAFlatEyeWithItsPivotInThePlane_IsNoDeeperThanWide) {
   Model eye = cap(10.0F, {2.0F, 4.0F}, false);
   for (glm::vec3& position : eye.positions) position.z = 1e-4F;

@@ -149,6 +149,47 @@ TEST(PaintedEyes, TheBackIsWhite) {
   }
 }
 
+/// A wall of some thickness, joined at its pupil: what is seen through the hole is dark, in either order of the
+/// corners.
+TEST(PaintedEyes, TheInsideOfAnEyeWithAHole_IsBlack) {
+  for (const bool is_reversed : {false, true}) {
+    Eyes eyes;
+    Model& model = eyes.model;
+    const std::size_t half = model.positions.size() / 2;
+    // The second ball becomes the inner wall of the first; its triangles face the pivot.
+    for (std::size_t v = 0; v < half; ++v)
+      model.positions[half + v] =
+          glm::vec3(30.0F, 0.0F, 0.0F) + 0.9F * (model.positions[v] - glm::vec3(30.0F, 0.0F, 0.0F));
+    const std::size_t outer = model.triangles.size() / 2;
+    for (std::size_t t = 0; t < 2 * outer; ++t)
+      if ((t >= outer) != is_reversed) std::swap(model.triangles[t][1], model.triangles[t][2]);
+    const auto n = static_cast<std::uint32_t>(half);
+    for (std::uint32_t s = 0; s < segments; ++s) {
+      const std::uint32_t next = (s + 1) % segments;
+      model.triangles.push_back({s, next, n + s});
+      model.triangles.push_back({next, n + next, n + s});
+    }
+    model.primitives[0].triangle_count = static_cast<std::uint32_t>(model.triangles.size());
+    eyes.surface = build_surface(model);
+    ASSERT_EQ(eyes.surface.part_count(), 1U);
+    eyes.parts.assign(1, eyes.parts[0]);
+    eyes.paint();
+    const Pixels pixels(model.images.back());
+    for (std::size_t t = outer; t < 2 * outer; ++t) {
+      for (const std::uint32_t uv : model.uv_triangles[t]) ASSERT_LT(pixels.at(model.uvs[uv]), 40.0) << t;
+    }
+    EXPECT_GT(pixels.at(model.uvs[model.uv_triangles[outer - 1][0]]), 220.0) << "the back, from outside";
+  }
+}
+
+TEST(PaintedEyes, SingleTrianglesInTheWrongOrder_AreNoInside) {
+  Eyes eyes;
+  for (std::size_t t = 0; t < eyes.model.triangles.size(); t += 3)
+    std::swap(eyes.model.triangles[t][1], eyes.model.triangles[t][2]);
+  eyes.paint();
+  for (const double value : brightness_at(eyes, 6.9F, {0.0F, 0.0F, 1.0F})) EXPECT_GT(value, 220.0);
+}
+
 TEST(PaintedEyes, Primitives_StillCoverAllTrianglesInOrder_AndTheTextureIsSmall) {
   Eyes eyes;
   eyes.paint();
