@@ -43,6 +43,7 @@ mv "$work/close/expressions-front-face.jpg" "$here/expressions.jpg"
 mv "$work/close/visemes-three-quarter-mouth.jpg" "$here/visemes.jpg"
 if [ -d "$faces" ]; then
   motions makehuman "$faces/makehuman/head.glb" "$faces/makehuman/makehuman.fps.json"
+  turns makehuman "$faces/makehuman/head.glb" "$faces/makehuman/makehuman.fps.json"
   motions ict-facekit "$faces/ict-facekit/neutral.obj" "$faces/ict-facekit/ict-facekit.fps.json"
   turns ict-facekit "$faces/ict-facekit/neutral.obj" "$faces/ict-facekit/ict-facekit.fps.json"
   draw makehuman "$faces/makehuman/head.glb" "$faces/makehuman/makehuman.fps.json"
