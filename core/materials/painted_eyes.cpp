@@ -20,6 +20,7 @@ namespace {
 
 constexpr float iris_of_ball = 0.49F;             ///< radius of the iris by that of the eyeball, of adults
 constexpr float widest_span = 4.0F;               ///< radii of the iris that the texture shows at most
+constexpr float widest_disc = 1.4F;               ///< radii of the iris; the white of an open eye is wider
 constexpr glm::vec2 black_place(0.5F, 0.5F);      ///< the pupil
 constexpr glm::vec2 white_place(0.004F, 0.004F);  ///< a corner of the texture
 
@@ -69,7 +70,8 @@ struct PaintedTriangle {
 class EyePainter {
  public:
   EyePainter(const Model& model, const Surface& surface, std::span<const Part> parts, const EyeLook& look)
-      : model_(model), surface_(surface), parts_(parts), look_(look) {
+      : model_(model), surface_(surface), parts_(parts), look_(look), eyes_(look.eyes) {
+    fit_discs();
     for (const Primitive& primitive : model.primitives) {
       const Material* const own = material_of(model, primitive);
       if (own == nullptr || says_nothing(*own) || is_eye_white(*own) || is_film(*own)) continue;
@@ -97,7 +99,7 @@ class EyePainter {
     const Plain plain =
         plain_of(own != nullptr ? std::string_view(own->name) : std::string_view(), primitive.name, role);
     if (plain != Plain::sclera && plain != Plain::iris) return {};
-    const std::optional<PaintedEye>& eye = look_.eyes[*side];
+    const std::optional<PaintedEye>& eye = eyes_[*side];
     if (!eye || !can_be_painted(*eye)) return {};
     return {&*eye, is_cornea ? Paint::cornea : Paint::eye, plain == Plain::iris, is_inner_wall(*eye, corners)};
   }
@@ -151,9 +153,9 @@ class EyePainter {
     std::vector<bool> moves(parts_.size());
     for (const Triangle& corners : model_.triangles) {
       const auto side = side_of(corners);
-      if (!side || !has_moving_iris_[*side] || !look_.eyes[*side]) continue;
+      if (!side || !has_moving_iris_[*side] || !eyes_[*side]) continue;
       const std::size_t part = part_of(corners).value();
-      if (is_in_front(*look_.eyes[*side], corners)) is_cornea_[part] = true;
+      if (is_in_front(*eyes_[*side], corners)) is_cornea_[part] = true;
       if (std::any_of(corners.begin(), corners.end(), [&](auto v) { return moves_as_iris(look_.motion[v]); })) {
         moves[part] = true;
       }
@@ -172,12 +174,40 @@ class EyePainter {
     return {(at(0) + at(1) + at(2)) / 3.0, area_vector(at(0), at(1), at(2))};
   }
 
+  /// An eye that is only a flat disc about the pupil is an iris, as large as it is: nothing of it is white.
+  void fit_discs() {
+    struct Extent {
+      float farthest = 0.0F;
+      float least = std::numeric_limits<float>::infinity();
+      float most = -std::numeric_limits<float>::infinity();
+    };
+    std::array<Extent, 2> extents;
+    for (const Triangle& corners : model_.triangles) {
+      const auto side = side_of(corners);
+      if (!side || !eyes_[*side] || !can_be_painted(*eyes_[*side])) continue;
+      for (const std::uint32_t v : corners) {
+        const EyePlace place = place_of(*eyes_[*side], model_.positions[v]);
+        Extent& extent = extents[*side];
+        extent.farthest = std::max(extent.farthest, glm::length(place.across));
+        extent.least = std::min(extent.least, place.along);
+        extent.most = std::max(extent.most, place.along);
+      }
+    }
+    for (std::size_t e = 0; e < 2; ++e) {
+      const Extent& extent = extents[e];
+      if (extent.farthest > 0.0F && extent.most - extent.least < 0.5F * extent.farthest &&
+          extent.farthest < widest_disc * eyes_[e]->iris_radius) {
+        eyes_[e]->iris_radius = extent.farthest;
+      }
+    }
+  }
+
   void measure_walls() {
     walls_.assign(parts_.size(), {});
     for (const Triangle& corners : model_.triangles) {
       const auto side = side_of(corners);
-      if (!side || !look_.eyes[*side]) continue;
-      const FromPivot triangle = from_pivot(*look_.eyes[*side], corners);
+      if (!side || !eyes_[*side]) continue;
+      const FromPivot triangle = from_pivot(*eyes_[*side], corners);
       Walls& walls = walls_[part_of(corners).value()];
       const double area = glm::length(triangle.normal);
       walls.volume += glm::dot(triangle.normal, triangle.middle);
@@ -207,6 +237,7 @@ class EyePainter {
   const Surface& surface_;
   std::span<const Part> parts_;
   const EyeLook& look_;
+  std::array<std::optional<PaintedEye>, 2> eyes_;  ///< left, right
   // Left, right.
   std::array<bool, 2> has_own_iris_{};     ///< the file gives the eye a look of its own
   std::array<bool, 2> has_moving_iris_{};  ///< some vertices move as its iris

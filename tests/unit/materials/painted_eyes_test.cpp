@@ -135,6 +135,33 @@ TEST(PaintedEyes, PupilAndIris_AreRound_OnACoarseBall_AroundTheGaze) {
   }
 }
 
+TEST(PaintedEyes, AFlatDiscAboutThePupil_IsAllIris) {
+  Eyes eyes;
+  // Squares of four triangles, 12 behind whose middle are the pivots.
+  Model discs;
+  for (const float x : {30.0F, -30.0F}) {
+    const auto first = static_cast<std::uint32_t>(discs.positions.size());
+    for (const glm::vec2& at : {glm::vec2(0.0F), {7.0F, 0.0F}, {0.0F, 7.0F}, {-7.0F, 0.0F}, {0.0F, -7.0F}})
+      discs.positions.emplace_back(x + at.x, at.y, ball);
+    for (std::uint32_t k = 0; k < 4; ++k) discs.triangles.push_back({first, first + 1 + k, first + 1 + (k + 1) % 4});
+  }
+  discs.primitives.push_back({"", -1, 0, static_cast<std::uint32_t>(discs.triangles.size())});
+  eyes.model = discs;
+  eyes.surface = build_surface(eyes.model);
+  eyes.parts.resize(eyes.surface.part_count());
+  eyes.parts[0].role = PartRole::left_eye;
+  eyes.parts[1].role = PartRole::right_eye;
+  eyes.paint();
+  for (const float r : {3.5F, 4.9F}) {
+    const auto seen = brightness_at(eyes, r, {0.0F, 0.0F, 1.0F});
+    ASSERT_GT(seen.size(), 40U);
+    for (const double value : seen) EXPECT_LT(value, 170.0) << r;
+  }
+  const Pixels pixels(eyes.model.images.back());
+  const glm::vec2 near_corner(0.5F + 0.5F * 6.6F / (1.02F * 7.0F), 0.5F);
+  EXPECT_LT(pixels.at(near_corner), 170.0);
+}
+
 TEST(PaintedEyes, TheBackIsWhite) {
   Eyes eyes;
   eyes.paint();
