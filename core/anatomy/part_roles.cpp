@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 
 #include "core/anatomy/part_shape.h"
+#include "core/anatomy/point_lookup.h"
 #include "core/anatomy/role_by_name.h"
 #include "core/anatomy/role_by_place.h"
 
@@ -75,6 +77,17 @@ std::size_t main_skin_part_by_name(const Surface& surface, std::span<const PartS
   return best;
 }
 
+/// Whether a part is both eyeballs in one piece. It cannot turn about the pivot of one of them.
+bool has_both_eyes(const PartShape& shape, const FeaturePointSet& points) {
+  const auto has_one_of = [&](std::initializer_list<std::string_view> names) {
+    return std::any_of(names.begin(), names.end(), [&](std::string_view name) {
+      const FeaturePoint* const point = find_point(points, name);
+      return point != nullptr && point->position.x > shape.low.x && point->position.x < shape.high.x;
+    });
+  };
+  return has_one_of({"3.1", "3.3", "3.5"}) && has_one_of({"3.2", "3.4", "3.6"});
+}
+
 }  // namespace
 
 bool is_skin_point(FeaturePointId id) {
@@ -132,6 +145,11 @@ std::vector<Part> describe_parts(const Model& model, const Surface& surface, con
     if (!roles[main]) roles[main] = PartRole::skin;
     guess_roles_by_name(shapes, roles);
     guess_roles_by_place(shapes, points, main, roles);
+    for (std::size_t p = 0; p < roles.size(); ++p) {
+      if (p < roles_by_user.size() && roles_by_user[p]) continue;
+      const bool is_eye = roles[p] == PartRole::left_eye || roles[p] == PartRole::right_eye;
+      if (is_eye && has_both_eyes(shapes[p], points)) roles[p] = PartRole::rest;
+    }
   }
 
   std::vector<Part> parts;

@@ -13,7 +13,8 @@
 namespace semblante {
 
 /// The parts of a model by PartId, with their roles: those set by the user, else guesses from the points marked on a
-/// part, its name, its place and its size. `points` may be empty: then only names, places and sizes are used.
+/// part, its name, its place and its size. Both eyeballs in one part are `rest`: it has no single pivot. `points` may
+/// be empty: then only names, places and sizes are used.
 std::vector<Part> describe_parts(const Model& model, const Surface& surface, const FeaturePointSet& points,
                                  std::span<const std::optional<PartRole>> roles_by_user = {});
 

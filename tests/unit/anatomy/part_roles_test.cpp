@@ -189,6 +189,20 @@ Model bridged(Model arch, float plate) {
 }
 
 /// Ready Player Me: one mesh "Wolf3D_Teeth" with both rows, gums and the tongue.
+TEST_F(CartoonHead, EyeballsJoinedToOnePart_AreNeitherEye) {
+  Model balls = testing::make_ball({3, 4, -1.2F}, 1.3F);
+  testing::append(balls, testing::make_ball({-3, 4, -1.2F}, 1.3F), "");
+  const auto half = static_cast<std::uint32_t>(balls.positions.size() / 2);
+  balls.triangles.push_back({0, 1, half});  // a strip between them
+  balls.primitives.back().triangle_count += 1;
+  add(balls, "Eyes");
+  surface_ = build_surface(model_);
+  EXPECT_EQ(roles(face_points()), (std::vector<std::string>{"skin", "rest"}));
+  FeaturePointSet with_pupil = face_points();
+  with_pupil.push_back({testing::fp("3.5"), VertexId(static_cast<std::uint32_t>(41 * 49)), {3, 4, 0}});
+  EXPECT_EQ(roles(with_pupil), (std::vector<std::string>{"skin", "rest"})) << "a pupil marked on it";
+}
+
 TEST_F(CartoonHead, TheTongueInAMeshOfTeeth_IsATongue) {
   for (const bool has_points : {true, false}) {
     for (const bool has_plates : {false, true}) {
