@@ -1,4 +1,5 @@
 import { expressions, faps, visemes } from '@protocol/generated/mpeg4.ts';
+import { performanceHeader } from './performance_header.ts';
 
 /** A cue of a performance document as it is written; a document that the library has read has only valid ones. */
 export interface Cue {
@@ -85,8 +86,7 @@ export function withCues(document: CueDocument, cues: readonly Cue[]): CueDocume
 
 /** A document with nothing in it but its length. */
 export const emptyDocument = (name: string): CueDocument => ({
-  format: 'semblante.performance',
-  version: 1,
+  ...performanceHeader,
   name,
   duration: 5000,
   cues: [],

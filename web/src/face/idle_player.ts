@@ -3,6 +3,7 @@ import { Performance, type Library } from '@client/motion/index.ts';
 import { quantize } from '@protocol/quantizers.ts';
 import { fineSteps, refineLevels } from './fine_steps.ts';
 import { shutLids } from './frame.ts';
+import { performanceHeader } from './performance_header.ts';
 
 export interface IdleLife {
   seed: number;
@@ -29,7 +30,7 @@ export class IdlePlayer {
     { seed, blinksPerMinute, head, eyes }: IdleLife,
   ) {
     const idle = { seed, blinks_per_minute: blinksPerMinute, head, eyes };
-    this.idle = new Performance(library, JSON.stringify({ format: 'semblante.performance', version: 1, idle }));
+    this.idle = new Performance(library, JSON.stringify({ ...performanceHeader, idle }));
   }
 
   /** Advances and returns the frame to show: the same object at each call. */
