@@ -1,5 +1,5 @@
 import { writeTake, type Library } from '@client/motion/index.ts';
-import { framesOfClip, type Motion } from '../../face/motion_frames.ts';
+import { framesOfClip, writtenRate, type Motion } from '../../face/motion_frames.ts';
 import { h, setText } from '../shared/dom.ts';
 import { icon, type IconName } from '../shared/icons.ts';
 import type { Studio } from '../shared/studio.ts';
@@ -51,7 +51,7 @@ function motionOf(driver: FaceDriver): Motion {
   if (clip) return framesOfClip(clip);
   const shown = driver.shownFrame();
   if (!shown) throw new Error(t('A stream is saved by a recording: see the Live tab.'));
-  return { frames: [{ time: 0, state: shown.state }], steps: shown.steps, rate: 25 };
+  return { frames: [{ time: 0, state: shown.state }], steps: shown.steps, rate: writtenRate };
 }
 
 /** Starts and stops a video; one that began while a clip or speech played stops with it. */
