@@ -458,6 +458,7 @@ export const portuguese = {
   'Type what {name} says.': 'Escreva o que {name} diz.',
   'Remove the recording': 'Remover a gravação',
   'its own': 'a sua própria',
+  'Of the language': 'A do idioma',
   'Mouths are those of English: this language has no table of its own.':
     'As bocas são as do inglês: este idioma não tem tabela própria.',
   'As the text says': 'Como diz o texto',
@@ -474,7 +475,7 @@ export const portuguese = {
   Delete: 'Excluir',
   '{count} loose vertices': '{count} vértices soltos',
   guessed: 'estimado',
-  rest: 'repouso',
+  rest: 'pausa',
   'No face parameter matches.': 'Nenhum parâmetro corresponde.',
   'Search: jaw, left, 31…': 'Buscar: mandíbula, esquerda, 31…',
   'Search face parameters': 'Buscar parâmetros do rosto',
