@@ -1,24 +1,17 @@
 import axe, { type AxeResults } from 'axe-core';
-import type { Browser, BrowserContextOptions } from 'playwright-core';
-import { afterAll, beforeAll, describe, expect, test } from 'vitest';
-import { samplePoints, webRoot } from './support/paths.ts';
-import { startServer, type RunningServer } from './support/server.ts';
-import { launch, StudioPage } from './support/studio_page.ts';
+import type { BrowserContextOptions } from 'playwright-core';
+import { beforeAll, describe, expect, test } from 'vitest';
+import { samplePoints } from './support/paths.ts';
+import { startServer } from './support/server.ts';
+import { StudioPage } from './support/studio_page.ts';
+import { browser, server, useStudio } from './support/suite.ts';
 
-let server: RunningServer;
-let browser: Browser;
-
+useStudio({ demo: false });
 beforeAll(async () => {
-  [server, browser] = await Promise.all([startServer(undefined, webRoot, false), launch()]);
   // A stream, and a head with findings, so that lists have what their items have. Nothing moves: axe needs the machine for itself.
   await fetch(`${server.url}/v1/streams`, { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: '{"title":"Mine"}' });
   const odd = ['v 0 0 0', 'v 1 0 0', 'v 0 1 0', 'v 0 0 1', 'v 0 0 -1', 'f 1 2 3', 'f 1 2 4', 'f 1 2 5', 'f 1 3 4'].join('\n');
   await fetch(`${server.url}/v1/models?name=Odd`, { method: 'POST', headers: { 'Content-Type': 'model/obj' }, body: odd });
-});
-
-afterAll(async () => {
-  await browser?.close();
-  await server?.stop();
 });
 
 /** Serious and critical findings of axe on the page as it is. */
@@ -149,7 +142,7 @@ describe('accessibility', () => {
 });
 
 test('Axe_SignIn_NothingSerious', async () => {
-  const closed = await startServer('edit');
+  const closed = await startServer({ tokenScope: 'edit' });
   try {
     for (const colorScheme of ['light', 'dark'] as const) {
       const context = await browser.newContext({ colorScheme });

@@ -1,11 +1,10 @@
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import type { Browser } from 'playwright-core';
-import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { describe, expect, test } from 'vitest';
 import { faces } from './support/paths.ts';
 import { eventually } from './support/patience.ts';
-import { startServer, type RunningServer } from './support/server.ts';
-import { launch, StudioPage } from './support/studio_page.ts';
+import { StudioPage } from './support/studio_page.ts';
+import { browser, server, useStudio } from './support/suite.ts';
 
 /**
  * Tolerance of shader against kernel, in diagonals of the head. Two float32 sums of at most 17 terms in different
@@ -24,17 +23,7 @@ interface Comparison {
   moved: number;
 }
 
-let server: RunningServer;
-let browser: Browser;
-
-beforeAll(async () => {
-  [server, browser] = await Promise.all([startServer(), launch()]);
-});
-
-afterAll(async () => {
-  await browser?.close();
-  await server?.stop();
-});
+useStudio();
 
 type Edit = { viseme?: number; expression?: number; faps?: Record<number, number> };
 

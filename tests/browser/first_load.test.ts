@@ -1,19 +1,9 @@
-import type { Browser } from 'playwright-core';
-import { afterAll, beforeAll, expect, test } from 'vitest';
+import { expect, test } from 'vitest';
 import { patience } from './support/patience.ts';
-import { startServer, type RunningServer } from './support/server.ts';
-import { launch, type Inside } from './support/studio_page.ts';
+import type { Inside } from './support/studio_page.ts';
+import { browser, server, useStudio } from './support/suite.ts';
 
-let server: RunningServer;
-let browser: Browser;
-
-beforeAll(async () => {
-  [server, browser] = await Promise.all([startServer(), launch()]);
-});
-afterAll(async () => {
-  await browser?.close();
-  await server?.stop();
-});
+useStudio();
 
 test('Studio_FirstVisit_MovesWithAtMost900kB_OfItScript300kB', async () => {
   const context = await browser.newContext({ viewport: { width: 880, height: 560 }, serviceWorkers: 'block' });

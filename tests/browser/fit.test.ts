@@ -1,12 +1,11 @@
 import { mkdtempSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import type { Browser } from 'playwright-core';
-import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { describe, expect, test } from 'vitest';
 import { sampleHead } from './support/paths.ts';
 import { patience } from './support/patience.ts';
-import { startServer, type RunningServer } from './support/server.ts';
-import { launch, StudioPage, type Inside } from './support/studio_page.ts';
+import { StudioPage, type Inside } from './support/studio_page.ts';
+import { browser, server, useStudio } from './support/suite.ts';
 
 interface ModelPart {
   index: number;
@@ -15,18 +14,9 @@ interface ModelPart {
   triangles: number;
 }
 
-let server: RunningServer;
-let browser: Browser;
 const scratch = mkdtempSync(join(tmpdir(), 'semblante-fit-'));
 
-beforeAll(async () => {
-  [server, browser] = await Promise.all([startServer(), launch()]);
-});
-
-afterAll(async () => {
-  await browser?.close();
-  await server?.stop();
-});
+useStudio();
 
 /** A ball as an OBJ file with one duplicate triangle. */
 function damagedBall(): string {

@@ -1,10 +1,9 @@
 import { readFileSync } from 'node:fs';
-import type { Browser } from 'playwright-core';
-import { afterAll, beforeAll, expect, test } from 'vitest';
+import { expect, test } from 'vitest';
 import { sampleHead, samplePoints } from './support/paths.ts';
 import { eventually } from './support/patience.ts';
-import { startServer, type RunningServer } from './support/server.ts';
-import { launch, StudioPage, type Inside } from './support/studio_page.ts';
+import { StudioPage, type Inside } from './support/studio_page.ts';
+import { browser, server, useStudio } from './support/suite.ts';
 
 type Vector = [number, number, number];
 
@@ -30,17 +29,7 @@ const directions = 64;
 const degree = Math.PI / 180;
 const turn = (ray: number): number => (2 * Math.PI * ray) / directions;
 
-let server: RunningServer;
-let browser: Browser;
-
-beforeAll(async () => {
-  [server, browser] = await Promise.all([startServer(), launch()]);
-});
-
-afterAll(async () => {
-  await browser?.close();
-  await server?.stop();
-});
+useStudio();
 
 /** The sample head without the materials of its eyes. */
 function withoutIrises(): Uint8Array<ArrayBuffer> {

@@ -1,18 +1,8 @@
-import type { Browser } from 'playwright-core';
-import { afterAll, beforeAll, expect, test } from 'vitest';
-import { startServer, type RunningServer } from './support/server.ts';
-import { launch, StudioPage } from './support/studio_page.ts';
+import { expect, test } from 'vitest';
+import { StudioPage } from './support/studio_page.ts';
+import { browser, server, useStudio } from './support/suite.ts';
 
-let server: RunningServer;
-let browser: Browser;
-
-beforeAll(async () => {
-  [server, browser] = await Promise.all([startServer(undefined, undefined, false), launch()]);
-});
-afterAll(async () => {
-  await browser?.close();
-  await server?.stop();
-});
+useStudio({ demo: false });
 
 test('Studio_ServerWithoutADemo_WaitsForNoStream', async () => {
   const studio = await StudioPage.open(browser, server.url);

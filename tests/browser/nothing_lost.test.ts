@@ -1,24 +1,14 @@
 import { readFileSync } from 'node:fs';
-import type { Browser } from 'playwright-core';
-import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { describe, expect, test } from 'vitest';
 import { sampleHead, samplePoints } from './support/paths.ts';
-import { startServer, type RunningServer } from './support/server.ts';
-import { launch, StudioPage, type Inside } from './support/studio_page.ts';
+import { StudioPage, type Inside } from './support/studio_page.ts';
+import { browser, server, useStudio } from './support/suite.ts';
 
-let server: RunningServer;
-let browser: Browser;
 const known = (
   JSON.parse(readFileSync(samplePoints, 'utf8')) as { points: Record<string, { position: [number, number, number] }> }
 ).points;
 
-beforeAll(async () => {
-  [server, browser] = await Promise.all([startServer(), launch()]);
-});
-
-afterAll(async () => {
-  await browser?.close();
-  await server?.stop();
-});
+useStudio();
 
 const selected = (studio: StudioPage): Promise<string> =>
   studio.page.evaluate(() => (window as unknown as Inside).semblante.studio.selected.value!.id);

@@ -30,7 +30,7 @@ beforeAll(async () => {
   mkdirSync(unpacked, { recursive: true });
   await run('tar', ['-xzf', join(project, packed.trim().split('\n').at(-1)!), '--strip-components=1', '-C', unpacked]);
   writeFileSync(join(project, 'package.json'), '{"type":"module","private":true}');
-  server = await startServer(undefined, project);
+  server = await startServer({ pages: project });
 });
 afterAll(async () => {
   await server?.stop();

@@ -1,6 +1,5 @@
 import type { Browser } from 'playwright-core';
 import { afterAll, beforeAll, expect, test } from 'vitest';
-import { webRoot } from './support/paths.ts';
 import { eventually } from './support/patience.ts';
 import { startServer, type RunningServer } from './support/server.ts';
 import { launch, StudioPage } from './support/studio_page.ts';
@@ -9,7 +8,7 @@ let server: RunningServer;
 let browser: Browser;
 
 beforeAll(async () => {
-  [server, browser] = await Promise.all([startServer(undefined, webRoot, false), launch()]);
+  [server, browser] = await Promise.all([startServer({ demo: false }), launch()]);
 });
 afterAll(async () => {
   await browser?.close();
@@ -53,7 +52,7 @@ test('Studio_WithoutAServer_OpensWithTheHeadsSeenAndSaysWhatDoesNotWork', async 
   await studio.close();
 
   // Another server at another address knows nothing of it: the note goes when a server answers again.
-  server = await startServer(undefined, webRoot, false);
+  server = await startServer({ demo: false });
   const again = await StudioPage.open(browser, server.url, { allowed: /./ });
   await again.waitForStage('ready');
   await again.page.route('**/*', (route) => route.abort());

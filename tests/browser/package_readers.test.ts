@@ -3,27 +3,15 @@ import { join } from 'node:path';
 import { createRequire } from 'node:module';
 import { build } from 'esbuild';
 import { createDecoderModule } from 'draco3d';
-import type { Browser } from 'playwright-core';
-import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { describe, expect, test } from 'vitest';
 import { decodeWeights } from '@protocol/weights_format.ts';
 import { readRig } from '@protocol/rig_document.ts';
 import { root } from './support/paths.ts';
 import { patience } from './support/patience.ts';
-import { startServer, type RunningServer } from './support/server.ts';
-import { launch } from './support/studio_page.ts';
 import type { FaceReport } from './pages/read_face.ts';
+import { browser, server, useStudio } from './support/suite.ts';
 
-let server: RunningServer;
-let browser: Browser;
-
-beforeAll(async () => {
-  [server, browser] = await Promise.all([startServer(), launch()]);
-});
-
-afterAll(async () => {
-  await browser?.close();
-  await server?.stop();
-});
+useStudio();
 
 async function artefact(name: string): Promise<Uint8Array> {
   // Uncompressed: the ETag of a compressed answer carries the coding beside the hash.

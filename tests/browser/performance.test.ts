@@ -1,25 +1,17 @@
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import type { Browser } from 'playwright-core';
-import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { afterAll, describe, expect, test } from 'vitest';
 import { root } from './support/paths.ts';
-import { startServer, type RunningServer } from './support/server.ts';
-import { launch, StudioPage } from './support/studio_page.ts';
+import { StudioPage } from './support/studio_page.ts';
+import { browser, server, useStudio } from './support/suite.ts';
 
-let server: RunningServer;
-let browser: Browser;
 const scratch = mkdtempSync(join(tmpdir(), 'semblante-performance-'));
 const faceAlone = [0.3, 0.1, 0.4, 0.8] as const;
 const hello = readFileSync(join(root, 'protocol/examples/performances/hello.json'), 'utf8');
 
-beforeAll(async () => {
-  [server, browser] = await Promise.all([startServer(), launch()]);
-});
-
+useStudio();
 afterAll(async () => {
-  await browser?.close();
-  await server?.stop();
   rmSync(scratch, { recursive: true, force: true });
 });
 

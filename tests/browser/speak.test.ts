@@ -1,7 +1,7 @@
 import { join } from 'node:path';
 import type { Browser } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, expect, test } from 'vitest';
-import { root, webRoot } from './support/paths.ts';
+import { root } from './support/paths.ts';
 import { startServer, type RunningServer } from './support/server.ts';
 import { launch, StudioPage } from './support/studio_page.ts';
 
@@ -15,8 +15,8 @@ let studio: StudioPage;
 
 beforeAll(async () => {
   [server, mute, browser] = await Promise.all([
-    startServer(undefined, webRoot, false, beeps),
-    startServer(undefined, webRoot, false, 'none'),
+    startServer({ demo: false, voice: beeps }),
+    startServer({ demo: false }),
     launch(),
   ]);
 });

@@ -1,12 +1,11 @@
 import { mkdtempSync, readFileSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import type { Browser } from 'playwright-core';
-import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { describe, expect, test } from 'vitest';
 import { faces, sampleHead, samplePoints } from './support/paths.ts';
 import { eventually } from './support/patience.ts';
-import { startServer, type RunningServer } from './support/server.ts';
-import { launch, StudioPage } from './support/studio_page.ts';
+import { StudioPage } from './support/studio_page.ts';
+import { browser, server, useStudio } from './support/suite.ts';
 
 /** The region of mouth and chin in the front view, above the tools. */
 const mouth = [0.33, 0.62, 0.34, 0.29] as const;
@@ -17,18 +16,9 @@ interface PointsFile {
   points: Record<string, { vertex: number; position: [number, number, number] }>;
 }
 
-let server: RunningServer;
-let browser: Browser;
 const scratch = mkdtempSync(join(tmpdir(), 'semblante-studio-'));
 
-beforeAll(async () => {
-  [server, browser] = await Promise.all([startServer(), launch()]);
-});
-
-afterAll(async () => {
-  await browser?.close();
-  await server?.stop();
-});
+useStudio();
 
 async function importPoints(studio: StudioPage, path: string): Promise<void> {
   await studio.page.setInputFiles('#points-file', path);

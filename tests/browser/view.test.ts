@@ -1,21 +1,10 @@
-import type { Browser, Page } from 'playwright-core';
-import { afterAll, beforeAll, expect, test } from 'vitest';
+import type { Page } from 'playwright-core';
+import { expect, test } from 'vitest';
 import { shownFace, untilFace, type ShownFace } from './support/face_page.ts';
 import { patience } from './support/patience.ts';
-import { startServer, type RunningServer } from './support/server.ts';
-import { launch } from './support/studio_page.ts';
+import { browser, server, useStudio } from './support/suite.ts';
 
-let server: RunningServer;
-let browser: Browser;
-
-beforeAll(async () => {
-  [server, browser] = await Promise.all([startServer(), launch()]);
-});
-afterAll(async () => {
-  await browser?.close();
-  await server?.stop();
-});
-
+useStudio();
 async function open(path: string, options: { reducedMotion?: 'reduce'; noWebGl?: boolean } = {}): Promise<{ page: Page; errors: string[] }> {
   const context = await browser.newContext({
     viewport: { width: 390, height: 844 },

@@ -36,12 +36,19 @@ function makeToken(data: string, scope: string): string {
   }).trim();
 }
 
-/**
- * Starts the real server with an empty store, the sample head and the demo stream; resolves once it is ready. With
- * `tokenScope` it asks for tokens, and `token` is one of that scope. `pages`: the folder that it serves. `demo`: whether it has
- * that stream. `voice`: the program that speaks, or none.
- */
-export async function startServer(tokenScope?: string, pages = webRoot, demo = true, voice = 'none'): Promise<RunningServer> {
+export interface ServerOptions {
+  /** It asks for tokens, and `token` is one of this scope. */
+  tokenScope?: string;
+  /** The folder that it serves. */
+  pages?: string;
+  /** Whether it has the demo stream. */
+  demo?: boolean;
+  /** The program that speaks. */
+  voice?: string;
+}
+
+/** Starts the real server with an empty store, the sample head and the demo stream; resolves once it is ready. */
+export async function startServer({ tokenScope, pages = webRoot, demo = true, voice = 'none' }: ServerOptions = {}): Promise<RunningServer> {
   const port = await freePort();
   const data = mkdtempSync(join(tmpdir(), 'semblante-browser-'));
   const token = tokenScope === undefined ? '' : makeToken(data, tokenScope);
