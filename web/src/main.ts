@@ -8,6 +8,7 @@ import type { Session } from './net/types.ts';
 import { AnimatePanel } from './ui/animate/animate_panel.ts';
 import { Address } from './ui/page/address.ts';
 import { codeButton } from './ui/code/code_dialog.ts';
+import { ComparePanel } from './ui/compare/compare_panel.ts';
 import { ClipPanel } from './ui/animate/clip_panel.ts';
 import { browserStorage, DraftStore } from './ui/points/draft_store.ts';
 import { exportButtons } from './ui/export/export_buttons.ts';
@@ -79,12 +80,17 @@ function main(root: HTMLElement, session: Session | null, theme: HTMLElement): v
   const sound = new Audio();
   const influence = new InfluenceModel(scene);
   const reader = new InfluenceReader(canvas, scene, influence);
+  const compare = new ComparePanel(studio, scene, parametrizer, async (onClose) => {
+    const { CompareView } = await import('./ui/compare/compare_view.ts');
+    return new CompareView({ scene, influence, driver, onClose, makeScene: (second) => makeScene(second, api) });
+  });
   const animate = new AnimatePanel({
     frame,
     exports: [codeButton(studio, live, driver), ...exportButtons({ studio, scene, driver, sound, load: loadLibrary, save: saveFile })],
     views: [
       new InfluencePanel(influence, scene).element,
       new UnitsPanel(scene, points, studio, parametrizer).element,
+      compare.element,
     ],
     onFap: (fap, mirror) => influence.useFap(fap, mirror),
     onChange: () => {
@@ -112,7 +118,7 @@ function main(root: HTMLElement, session: Session | null, theme: HTMLElement): v
   const overlay = new LiveOverlay(live, driver);
   const livePanel = new LivePanel(studio, live, performance.element, recordingsPanel.element, overlay.on);
   const chip = makeDriverChip({ driver, live, clip: clip.shown, recordings, scene, tab: studio.tab });
-  const stagePanel = new StagePanel(canvas, scene, studio, points, chip, influence.on);
+  const stagePanel = new StagePanel(canvas, scene, studio, points, [chip, compare.label], influence.on);
   stagePanel.element.append(influenceLegend(influence, scene), overlay.element, reader.element, reader.said);
   const panels = {
     heads: shelf.element,
@@ -125,7 +131,7 @@ function main(root: HTMLElement, session: Session | null, theme: HTMLElement): v
     await Promise.all([studio.start(), live.refresh()]);
     if (scene.state.value.kind === 'failed' && studio.selected.value) void scene.open(studio.selected.value);
   };
-  const layout = makeLayout(studio, panels, stagePanel.element, extras, offlineNote(api.base, () => void back()));
+  const layout = makeLayout(studio, panels, [stagePanel.element, compare.seat], extras, offlineNote(api.base, () => void back()));
   layout.append(progressSaid(studio, scene), toasts.element);
   root.replaceChildren(layout);
 

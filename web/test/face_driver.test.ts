@@ -58,6 +58,22 @@ const sources = Object.keys(takes) as MotionSource[];
 const pairs = sources.flatMap((from) => sources.map((to) => [from, to] as const));
 
 describe('face driver', () => {
+  test.each(sources)('Twin_While%sHasTheFace_IsMovedAlike', (source) => {
+    takes[source]();
+    const twin = new FakeFace();
+    driver.setTwin(twin);
+    expect(twin.followed).toEqual([source === 'recording' ? moment : hand]);
+    driver.step(0.016);
+    expect(twin.clipTimes).toEqual(face.clipTimes);
+    expect(twin.steps).toEqual(face.steps);
+    expect(driver.twinMoved).toBe(source !== 'hand' && source !== 'recording');
+    driver.setTwin(null);
+    driver.step(0.016);
+    expect(driver.twinMoved).toBe(false);
+    expect(face.steps.length + face.clipTimes.length).toBe(2);
+    expect(twin.steps.length + twin.clipTimes.length).toBe(1);
+  });
+
   test('Start_NothingYet_IsTheHand', () => expect(driver.source.value).toBe('hand'));
 
   test.each(pairs)('Take_From%sBy%s_HasTheFaceAlone', (from, to) => {

@@ -26,8 +26,12 @@ export class Performer {
   // The two frames of a clip whose poses are in the kernel.
   private clipFrames: [FaceFrame | null, FaceFrame | null] = [null, null];
 
-  constructor(readonly kernel: Kernel) {
-    this.player = new Player(kernel);
+  /** `clock`: the media time of a stream that is shown, ms, NaN while unknown; without it the player's own. */
+  constructor(
+    readonly kernel: Kernel,
+    clock?: () => number,
+  ) {
+    this.player = new Player(kernel, clock ? { clock } : {});
   }
 
   /** The displayed pose. */

@@ -61,11 +61,14 @@ export class Stage {
 
   private readonly hooks: FrameHook[] = [];
   private readonly center = new Vector3();
+  private readonly between = new Vector3();
   private readonly flight = new Flight();
   /** The view before `lookAt` and `lookFrom`, for `lookBack`: the camera's target and the vector from there to the camera. */
   private before: { target: Vector3; arm: Vector3 } | null = null;
   private radius = 1;
   private dirty = true;
+  private ended = false;
+  private readonly resized = new ResizeObserver(() => this.resize());
   private lastTime = 0;
   private secondStart = 0;
   private framesInSecond = 0;
@@ -111,7 +114,7 @@ export class Stage {
     this.controls.addEventListener('change', () => this.invalidate());
     this.controls.addEventListener('start', () => this.flight.stop());
 
-    new ResizeObserver(() => this.resize()).observe(canvas.parentElement ?? canvas);
+    this.resized.observe(canvas.parentElement ?? canvas);
     this.resize();
     requestAnimationFrame(this.frame);
   }
@@ -234,6 +237,37 @@ export class Stage {
     this.invalidate();
   }
 
+  /** Sees the framed head as another stage sees its own: from the same side, equally large. Allocates nothing. */
+  copyView(from: Stage): void {
+    this.flight.stop();
+    const scale = this.radius / from.radius;
+    this.controls.target.copy(from.controls.target).sub(from.center).multiplyScalar(scale).add(this.center);
+    this.camera.position.copy(from.camera.position).sub(from.center).multiplyScalar(scale).add(this.center);
+    this.camera.quaternion.copy(from.camera.quaternion);
+    this.invalidate();
+  }
+
+  /** Whether `copyView` would move the camera by more than rounding. Allocates nothing. */
+  seesOtherThan(from: Stage): boolean {
+    const scale = this.radius / from.radius;
+    const { center, controls, camera, between } = this;
+    const tolerance = this.radius * 1e-5;
+    between.copy(from.controls.target).sub(from.center).multiplyScalar(scale).add(center);
+    if (between.distanceTo(controls.target) > tolerance) return true;
+    between.copy(from.camera.position).sub(from.center).multiplyScalar(scale).add(center);
+    return between.distanceTo(camera.position) > tolerance;
+  }
+
+  /** Ends the frame loop and gives the graphics context back. */
+  dispose(): void {
+    this.ended = true;
+    this.resized.disconnect();
+    this.controls.dispose();
+    this.scene.environment?.dispose();
+    this.renderer.dispose();
+    this.renderer.forceContextLoss();
+  }
+
   /** Rotates the camera around the head, for the keyboard. Angles in radians. */
   orbit(yaw: number, pitch: number): void {
     this.flight.stop();
@@ -342,6 +376,7 @@ export class Stage {
   }
 
   private readonly frame = (time: number): void => {
+    if (this.ended) return;
     requestAnimationFrame(this.frame); // first: an exception below must not end the loop
     const delta = Math.min(0.1, (time - this.lastTime) / 1000);
     this.lastTime = time;

@@ -56,13 +56,29 @@ export class InfluenceModel {
   private skin: Uint8Array = new Uint8Array();
   private regionOf: Uint8Array = new Uint8Array();
 
-  constructor(private readonly scene: SceneView) {
+  /** `leader`: the model of the first view, whose colours of regions and choice this one takes over; null: this is the first. */
+  constructor(
+    private readonly scene: SceneView,
+    private readonly leader: InfluenceModel | null = null,
+  ) {
     scene.performer.watch(() => this.takeFace());
     this.on.watch((on) => {
       if (on) this.prepare();
       scene.showInfluence(on);
     });
     for (const signal of [this.mode, this.chosen] as Signal<unknown>[]) signal.watch(() => this.draw());
+  }
+
+  /** Shows what the leader shows. Returns the function that ends it. */
+  followLeader(): () => void {
+    const { leader } = this;
+    if (!leader) return () => {};
+    const ends = [
+      leader.mode.watch((mode) => this.mode.set(mode)),
+      leader.chosen.watch((chosen) => this.chosen.set(chosen)),
+      leader.on.watch((on) => this.on.set(on)),
+    ];
+    return () => ends.forEach((end) => end());
   }
 
   /** Whether weights are on the stage. */
@@ -144,6 +160,9 @@ export class InfluenceModel {
     scene.influence = new InfluenceView(face, rig.feature_points, heatStops);
     this.strongest = strongestPoints(face.mesh);
     this.regionOf = colourRegions(this.strongest, face.mesh.indices);
+    this.leader?.regionOf.forEach((colour, point) => {
+      if (colour < regionColours.length) this.regionOf[point] = colour;
+    });
     if (this.chosen.value.length === 0) {
       const first = this.moving.has(firstPoint) ? firstPoint : [...this.moving][0];
       if (first) this.chosen.set([first]);

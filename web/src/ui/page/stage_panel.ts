@@ -41,7 +41,7 @@ export class StagePanel {
     private readonly scene: SceneView,
     private readonly studio: Studio,
     private readonly points: PointsModel,
-    driver: HTMLElement,
+    top: readonly HTMLElement[],
     private readonly influence: Signal<boolean>,
   ) {
     canvas.tabIndex = 0;
@@ -58,7 +58,7 @@ export class StagePanel {
       canvas,
       h('div', { class: 'stage-cross', 'aria-hidden': 'true' }),
       this.label,
-      h('div', { class: 'stage-top' }, driver, this.hint),
+      h('div', { class: 'stage-top' }, top, this.hint),
       this.overlay,
       this.makeTools(),
       this.figures,

@@ -8,7 +8,8 @@ interface Choice {
   note: string;
 }
 
-const weightChoices: readonly Choice[] = [
+/** The kinds of weights, and the distances that they are computed from. */
+export const weightChoices: readonly Choice[] = [
   { value: 'smooth', title: t('Smooth skin'), note: t('Weights fade out smoothly: looks best.') },
   {
     value: 'fitted',
@@ -17,7 +18,7 @@ const weightChoices: readonly Choice[] = [
   },
   { value: 'paper', title: t('As in the paper'), note: t('Weights exactly as published, Eq. 1 to 4.') },
 ];
-const metricChoices: readonly Choice[] = [
+export const metricChoices: readonly Choice[] = [
   { value: 'edge', title: t('Along edges'), note: t('As in the paper; fastest.') },
   { value: 'unfolded', title: t('Across triangles'), note: t('Closer to the true distance over the skin.') },
 ];

@@ -30,6 +30,9 @@ export class FaceDriver {
   readonly source = new Signal<MotionSource>('hand');
   private readonly listeners = new Set<(source: MotionSource) => void>();
   private face: DrivenFace | null = null;
+  private twin: DrivenFace | null = null;
+  /** Whether the last step changed the pose of the face of `setTwin`. */
+  twinMoved = false;
   private client: StreamClient | null = null;
   private speech: SpokenClip | null = null;
   private held: FaceFrame | null = null;
@@ -50,7 +53,7 @@ export class FaceDriver {
   /** Shows the frame set with the sliders. */
   byHand(): void {
     this.take('hand');
-    this.face?.follow(this.frame);
+    this.follow(this.frame);
   }
 
   /** Shows what the clip player plays or seeks. */
@@ -68,7 +71,7 @@ export class FaceDriver {
   byRecording(moment: FaceFrame): void {
     this.take('recording');
     this.held = moment;
-    this.face?.follow(moment);
+    this.follow(moment);
   }
 
   /** Shows the frames that the subscription receives. */
@@ -103,10 +106,21 @@ export class FaceDriver {
     else if (source !== 'stream' && source !== 'speech') this.take('hand');
   }
 
+  /** Sets a face that does the same in a second view; null: none. */
+  setTwin(twin: DrivenFace | null): void {
+    this.twin = twin;
+    if (!twin) return;
+    twin.listen(this.client);
+    const source = this.source.value;
+    twin.follow(source === 'recording' && this.held ? this.held : this.frame);
+    if (source === 'clip') this.clip.seek(this.clip.position);
+  }
+
   /** Sets the subscription whose frames `stream` shows; null: none. */
   setClient(client: StreamClient | null): void {
     this.client = client;
     this.face?.listen(client);
+    this.twin?.listen(client);
   }
 
   /** The clip that is on the face, of a file or of a speech; null while another source drives it. */
@@ -139,17 +153,32 @@ export class FaceDriver {
 
   /** Advances by one displayed frame, seconds. Returns whether the pose changed. */
   step(deltaSeconds: number): boolean {
-    const { face, clip, idle } = this;
+    const { face, twin, clip, idle } = this;
+    this.twinMoved = false;
     if (!face) return false;
     const source = this.source.value;
     const spoken = source === 'speech' ? this.speech : null;
     const moment = spoken ? momentOf(spoken) : source === 'clip' ? clip.step(deltaSeconds) : null;
     if (moment) {
-      face.showBetween(moment.from.state, moment.to.state, moment.t, (spoken ?? clip).clip?.steps);
+      const steps = (spoken ?? clip).clip?.steps;
+      face.showBetween(moment.from.state, moment.to.state, moment.t, steps);
+      twin?.showBetween(moment.from.state, moment.to.state, moment.t, steps);
+      this.twinMoved = twin !== null;
       return true;
     }
-    if (idle && source === 'hand') face.enliven(idle.step(deltaSeconds), idle.steps);
-    return face.step(deltaSeconds, source === 'stream');
+    if (idle && source === 'hand') {
+      const frame = idle.step(deltaSeconds);
+      face.enliven(frame, idle.steps);
+      twin?.enliven(frame, idle.steps);
+    }
+    const moved = face.step(deltaSeconds, source === 'stream');
+    if (twin) this.twinMoved = twin.step(deltaSeconds, source === 'stream'); // second: of a stream it shows the moment of the first
+    return moved;
+  }
+
+  private follow(frame: FaceFrame): void {
+    this.face?.follow(frame);
+    this.twin?.follow(frame);
   }
 
   private take(source: MotionSource): void {

@@ -44,6 +44,8 @@ export class SceneView {
   face: FaceView | null = null;
   /** What the server told of the animated face. */
   rig: LoadedFace['rig'] | null = null;
+  /** A second view that draws its face in the same way; null: none. Set by `joinTwin`. */
+  twin: SceneView | null = null;
   private painted: InfluenceView | null = null;
   private lines: UnitLines | null = null;
   private wanted: 'preview' | 'face' = 'face';
@@ -69,12 +71,18 @@ export class SceneView {
     this.stage.onFrame((delta) => this.step(delta));
   }
 
+  /** The media time of a stream that the face shows, ms; undefined: its own. */
+  clock: (() => number) | undefined;
+
   /** Advances the performer by one displayed frame, seconds; returns whether its pose changed. */
   animate: (deltaSeconds: number) => boolean = () => false;
 
-  /** Shows a model or the changes of the shown model. The old picture stays until the new one is loaded. */
-  async open(model: Model | null): Promise<void> {
-    if (packageOf(model) !== packageOf(this.model)) this.level.set(0);
+  /**
+   * Shows a model or the changes of the shown model. The old picture stays until the new one is loaded. Without a `level` the
+   * shown one stays, unless the package is another.
+   */
+  async open(model: Model | null, level?: number): Promise<void> {
+    this.level.set(level ?? (packageOf(model) === packageOf(this.model) ? this.level.value : 0));
     this.model = model;
     const axes = model?.frame?.axes;
     const key = model
@@ -125,8 +133,7 @@ export class SceneView {
   }
 
   showLevel(level: number): void {
-    this.level.set(level);
-    void this.open(this.model);
+    void this.open(this.model, level);
   }
 
   /** Switches between the still model with its markers and the animated face (if there is one). */
@@ -166,6 +173,7 @@ export class SceneView {
     if (this.preview) this.preview.wireframe = on;
     if (this.face) this.face.wireframe = on;
     if (this.painted) this.painted.wireframe = on;
+    if (this.twin) this.twin.wireframe = on;
     this.stage.invalidate();
   }
 
@@ -179,6 +187,7 @@ export class SceneView {
     this.painted?.usePath(path);
     const performer = this.performer.value;
     if (performer && this.face) this.pose(this.face, performer);
+    if (this.twin) this.twin.deformPath = path;
     this.stage.invalidate();
   }
 
@@ -295,7 +304,7 @@ export class SceneView {
       this.stage.scene.add(face.view.object);
       face.view.usePath(this.path);
       face.loaded.kernel.setJawTakesLip(this.lipFollows);
-      const performer = new Performer(face.loaded.kernel);
+      const performer = new Performer(face.loaded.kernel, this.clock);
       this.pose(face.view, performer);
       this.performer.set(performer);
     } else {
@@ -315,6 +324,23 @@ export class SceneView {
   set jawTakesLip(takes: boolean) {
     this.lipFollows = takes;
     this.performer.value?.kernel.setJawTakesLip(takes);
+    if (this.twin) this.twin.jawTakesLip = takes;
+  }
+
+  /** Makes another scene a second view of the same work: it draws as this one does, and is given up with null. */
+  joinTwin(twin: SceneView | null): void {
+    this.twin = twin;
+    if (!twin) return;
+    twin.wireframe = this.wire;
+    twin.deformPath = this.path;
+    twin.jawTakesLip = this.lipFollows;
+  }
+
+  /** Ends the view. */
+  dispose(): void {
+    this.opening?.abort();
+    this.clear();
+    this.stage.dispose();
   }
 
   private clear(): void {
