@@ -35,6 +35,7 @@ import { LivePanel } from './ui/live/live_panel.ts';
 import { Parametrizer } from './ui/points/parametrizer.ts';
 import { PerformanceModel } from './ui/live/performance_model.ts';
 import { PerformancePanel } from './ui/live/performance_panel.ts';
+import { PointPicker } from './ui/page/point_picker.ts';
 import { PointsModel } from './ui/points/points_model.ts';
 import { PointsPanel } from './ui/points/points_panel.ts';
 import { startPolling } from './ui/page/polling.ts';
@@ -55,7 +56,7 @@ import { UnitsPanel } from './ui/units/units_panel.ts';
 import { themeButton } from './ui/page/theme.ts';
 import { takeThumbnails } from './ui/heads/thumbnails.ts';
 import { keepOffline } from '../offline/register.ts';
-import { language } from './words/words.ts';
+import { language, t } from './words/words.ts';
 import { Toasts } from './ui/shared/toast.ts';
 
 /** Composes the page; the only module that knows all others. */
@@ -120,6 +121,15 @@ function main(root: HTMLElement, session: Session | null, theme: HTMLElement): v
   const chip = makeDriverChip({ driver, live, clip: clip.shown, recordings, scene, tab: studio.tab });
   const stagePanel = new StagePanel(canvas, scene, studio, points, [chip, compare.label], influence.on);
   stagePanel.element.append(influenceLegend(influence, scene), overlay.element, reader.element, reader.said);
+  // Loaded when points can be dragged, not with the first picture.
+  const untilPoints = studio.tab.watch((tab) => {
+    if (tab !== 'points') return;
+    queueMicrotask(() => untilPoints());
+    void studio.attempt(t('Points cannot be dragged: a part of the page was not loaded'), async () => {
+      const { PointDrag } = await import('./ui/page/point_drag.ts');
+      stagePanel.element.append(new PointDrag(canvas, scene, studio, points, picker).element);
+    });
+  });
   const panels = {
     heads: shelf.element,
     fit: fitPanel.element,

@@ -56,6 +56,21 @@ export class Markers {
     this.geometry.setAttribute('ring', new BufferAttribute(rings, 1));
   }
 
+  of(id: string): Marker | null {
+    return this.markers.find((marker) => marker.id === id) ?? null;
+  }
+
+  /** Moves one marker, until `set` is called again. */
+  moveTo(id: string, position: readonly [number, number, number]): void {
+    const at = this.markers.findIndex((marker) => marker.id === id);
+    const marker = this.markers[at];
+    if (!marker) return;
+    marker.position = position;
+    const positions = this.geometry.getAttribute('position') as BufferAttribute;
+    positions.setXYZ(at, ...position);
+    positions.needsUpdate = true;
+  }
+
   /** The marker nearest to a place on the canvas, within `reach` pixels; else null. */
   at(x: number, y: number, camera: Camera, width: number, height: number, reach: number): Marker | null {
     let best: Marker | null = null;

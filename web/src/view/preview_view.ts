@@ -145,11 +145,7 @@ export class PreviewView {
   geometriesOf(part: number): BufferGeometry[] {
     const found: BufferGeometry[] = [];
     for (const { geometry } of this.meshes) {
-      const { index } = geometry;
-      if (!index || !geometry.hasAttribute('_part')) continue;
-      const corners: number[] = [];
-      for (let i = 0; i + 2 < index.count; i += 3)
-        if (partOf(geometry, index.getX(i)) === part) corners.push(index.getX(i), index.getX(i + 1), index.getX(i + 2));
+      const corners = cornersOf(geometry, (one) => one === part);
       if (corners.length === 0) continue;
       const piece = new BufferGeometry();
       piece.setAttribute('position', geometry.getAttribute('position'));
@@ -157,6 +153,34 @@ export class PreviewView {
       found.push(piece);
     }
     return found;
+  }
+
+  /** The triangles of these parts alone, with their materials, as an object of its own; `release` ends it. */
+  only(parts: ReadonlySet<number>): Group {
+    const group = new Group();
+    for (const mesh of this.meshes) {
+      const { geometry } = mesh;
+      const corners = cornersOf(geometry, (part) => parts.has(part));
+      if (corners.length === 0) continue;
+      const piece = new BufferGeometry();
+      for (const [name, attribute] of Object.entries(geometry.attributes)) piece.setAttribute(name, attribute);
+      piece.setIndex(corners);
+      const copy = new Mesh(piece, mesh.material);
+      copy.receiveShadow = true;
+      copy.matrixAutoUpdate = false;
+      copy.matrix.copy(mesh.matrixWorld);
+      group.add(copy);
+    }
+    return group;
+  }
+
+  release(group: Object3D): void {
+    group.removeFromParent();
+    for (const { geometry } of group.children as Mesh[]) {
+      // The vertex buffers are the preview's, which must not be disposed with it.
+      for (const name of Object.keys(geometry.attributes)) geometry.deleteAttribute(name);
+      geometry.dispose();
+    }
   }
 
   /** The mean normal at these vertices of the file; zero where the normals cancel out. */
@@ -204,6 +228,16 @@ const corner = new Vector3();
 
 const partOf = (geometry: BufferGeometry, vertex: number): number =>
   Math.round(geometry.getAttribute('_part').getX(vertex));
+
+/** The corners of the triangles of the parts that qualify. */
+function cornersOf(geometry: BufferGeometry, qualifies: (part: number) => boolean): number[] {
+  const { index } = geometry;
+  const corners: number[] = [];
+  if (!index || !geometry.hasAttribute('_part')) return corners;
+  for (let i = 0; i + 2 < index.count; i += 3)
+    if (qualifies(partOf(geometry, index.getX(i)))) corners.push(index.getX(i), index.getX(i + 1), index.getX(i + 2));
+  return corners;
+}
 
 /** GLTFLoader converts the attribute name `_FILE_VERTEX` to lower case. */
 function fileVertexOf(geometry: BufferGeometry, vertex: number): number {

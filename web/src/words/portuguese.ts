@@ -339,7 +339,7 @@ export const portuguese = {
   View: 'Vista',
   '{label} view ({key})': 'Vista {label} ({key})',
   'Choose a point, then click on the head.': 'Escolha um ponto e depois clique na cabeça.',
-  'Click elsewhere to move {id}: {name}': 'Clique em outro lugar para mover {id}: {name}',
+  'Drag {id}, or click where it lies: {name}': 'Arraste {id} ou clique onde fica: {name}',
   'Click where {id} lies: {name}': 'Clique onde fica {id}: {name}',
   '{bytes} face': 'rosto de {bytes}',
   '{rate} fps': '{rate} qps',

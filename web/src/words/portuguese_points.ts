@@ -87,7 +87,7 @@ export const portuguesePoints = {
   Next: 'Próximo',
   'Click on the head to place it.': 'Clique na cabeça para colocá-lo.',
   'At {list}': 'Em {list}',
-  'On vertex {vertex}. Click elsewhere to move it.': 'No vértice {vertex}. Clique em outro lugar para movê-lo.',
+  'On vertex {vertex}. Drag it, or click elsewhere.': 'No vértice {vertex}. Arraste-o ou clique em outro lugar.',
   'Remove point {id}': 'Remover o ponto {id}',
   'Remove (Delete)': 'Remover (Delete)',
   'Choose a point in the drawing or the list, then click its place on the head.': 'Escolha um ponto no desenho ou na lista e depois clique no lugar dele na cabeça.',
@@ -156,5 +156,6 @@ export const portuguesePoints = {
   'Propose missing points': 'Propor os pontos que faltam',
   '{count} proposed': '{count} propostos',
   Review: 'Revisar',
+  'Points cannot be dragged: a part of the page was not loaded': 'Não é possível arrastar pontos: uma parte da página não foi carregada',
   'Confirm all': 'Confirmar todos',
 } as const;

@@ -5,7 +5,7 @@ import { rove } from '../shared/roving.ts';
 import { icon, type IconName } from '../shared/icons.ts';
 import { pointById } from '../../face/feature_points.ts';
 import type { PointsModel } from '../points/points_model.ts';
-import { rolesOfPoint } from '../../view/pick_through.ts';
+import type { PointPicker } from './point_picker.ts';
 import type { SceneView } from '../stage/scene.ts';
 import { overlayCard } from './stage_overlay.ts';
 import type { Signal } from '../shared/signal.ts';
@@ -18,9 +18,6 @@ const views: { name: ViewName; label: string; key: string }[] = [
   { name: 'left', label: t('Left'), key: '3' },
   { name: 'right', label: t('Right'), key: '4' },
 ];
-
-/** How deep a click on a point goes through lashes, glasses and hair, in radii of the head. */
-const throughDepth = 0.3;
 
 /** The stage with its tools: views, wireframe, deformation path, and placing of feature points with the pointer. */
 export class StagePanel {
@@ -168,13 +165,7 @@ export class StagePanel {
 
   /** Places the selected point on the head at `x`, `y` (normalized device coordinates, -1..1 from the lower left). */
   private placeAt(x: number, y: number): void {
-    const { chosen } = this.points;
-    const parts = this.studio.selected.value?.parts ?? [];
-    const pick = this.scene.preview?.pick(x, y, this.scene.stage.camera, {
-      roles: rolesOfPoint(chosen.value ?? ''),
-      roleOf: (part) => parts.find(({ index }) => index === part)?.role ?? null,
-      depth: this.scene.stage.headRadius * throughDepth,
-    });
+    const pick = this.picker.pick(this.points.chosen.value ?? '', x, y);
     if (pick) this.points.place(pick.fileVertex, pick.position);
   }
 
@@ -187,6 +178,7 @@ export class StagePanel {
     const marker = this.scene.markers.at(x, y, this.scene.stage.camera, width, height, 12);
     this.label.hidden = marker === null;
     this.canvas.classList.toggle('placing', this.points.chosen.value !== null);
+    this.canvas.classList.toggle('over-point', marker !== null);
     if (!marker) return;
     setText(this.label, `${marker.id}  ${pointById(marker.id)?.name ?? ''}`);
     const at = this.scene.markers.project(marker.position, this.scene.stage.camera, width, height);
@@ -240,7 +232,7 @@ export class StagePanel {
       id === null
         ? t('Choose a point, then click on the head.')
         : this.points.draft.points.has(id)
-          ? t('Click elsewhere to move {id}: {name}', { id, name })
+          ? t('Drag {id}, or click where it lies: {name}', { id, name })
           : t('Click where {id} lies: {name}', { id, name });
     replace(this.hint, icon('point', 16), h('span', {}, words));
   }

@@ -74,7 +74,7 @@ export class PointCard {
     const place = this.points.draft.points.get(id);
     if (!place) return t('Click on the head to place it.');
     if (place.vertex === null) return t('At {list}', { list: place.position.map((value) => formatNumber(value, 4)).join(' · ') });
-    return t('On vertex {vertex}. Click elsewhere to move it.', { vertex: place.vertex });
+    return t('On vertex {vertex}. Drag it, or click elsewhere.', { vertex: place.vertex });
   }
 
   private removeButton(id: string): HTMLElement {

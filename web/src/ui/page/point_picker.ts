@@ -1,0 +1,57 @@
+import type { PointsModel } from '../points/points_model.ts';
+import type { SceneView } from '../stage/scene.ts';
+import type { Studio } from '../shared/studio.ts';
+import { rolesOfPoint } from '../../view/pick_through.ts';
+import type { PartRole } from '../../net/types.ts';
+import type { Marker } from '../../view/markers.ts';
+import type { Pick } from '../../view/preview_view.ts';
+
+/** How deep a click on a point goes through lashes, glasses and hair, in radii of the head. */
+const throughDepth = 0.3;
+/** A marker is seen where the surface under it is this near to it, in radii of the head. */
+const atMarker = 0.12;
+
+/** Finds the place on the head that a pointer means for a feature point. */
+export class PointPicker {
+  constructor(
+    private readonly scene: SceneView,
+    private readonly studio: Studio,
+    private readonly points: PointsModel,
+  ) {}
+
+  /** The place of point `id` at `x`, `y` (normalized device coordinates, -1..1 from the lower left). */
+  pick(id: string, x: number, y: number): Pick | null {
+    const parts = this.studio.selected.value?.parts ?? [];
+    const { preview, stage } = this.scene;
+    return (
+      preview?.pick(x, y, stage.camera, {
+        roles: rolesOfPoint(id),
+        roleOf: (part) => parts.find(({ index }) => index === part)?.role ?? null,
+        depth: stage.headRadius * throughDepth,
+      }) ?? null
+    );
+  }
+
+  /** The parts that are seen where point `id` lies, without what a click goes through: lashes and hair; for teeth and tongue the skin. */
+  partsAround(id: string): Set<number> {
+    const roles = rolesOfPoint(id);
+    const seen = (role: PartRole): boolean => (roles.includes('skin') ? role !== 'attached' && role !== 'rest' : roles.includes(role));
+    return new Set((this.studio.selected.value?.parts ?? []).filter(({ role }) => seen(role)).map(({ index }) => index));
+  }
+
+  /** The marker under a pointer (CSS pixels of the picture) that can be dragged: the chosen one before others; not one behind the head. */
+  grip(x: number, y: number, width: number, height: number, reach: number, onlyChosen: boolean): Marker | null {
+    const { markers, stage } = this.scene;
+    const chosen = this.points.chosen.value;
+    const own = chosen === null ? null : markers.of(chosen);
+    const at = own && markers.project(own.position, stage.camera, width, height);
+    const marker =
+      own && at && Math.hypot(at.x - x, at.y - y) <= reach ? own : onlyChosen ? null : markers.at(x, y, stage.camera, width, height, reach);
+    if (!marker) return null;
+    const place = markers.project(marker.position, stage.camera, width, height);
+    const seen = this.pick(marker.id, (place.x / width) * 2 - 1, 1 - (place.y / height) * 2)?.position;
+    if (!seen) return null;
+    const off = Math.hypot(...seen.map((value, axis) => value - marker.position[axis]!));
+    return off <= stage.headRadius * atMarker ? marker : null;
+  }
+}
