@@ -13,6 +13,9 @@ import { ClipPanel } from './ui/animate/clip_panel.ts';
 import { browserStorage, DraftStore } from './ui/points/draft_store.ts';
 import { exportButtons } from './ui/export/export_buttons.ts';
 import { h } from './ui/shared/dom.ts';
+import { HiddenParts } from './ui/points/hidden_parts.ts';
+import { hideParts } from './ui/page/part_hiding.ts';
+import { SettingsStore } from './ui/points/settings_store.ts';
 import { makeDriverChip } from './ui/page/driver_chip.ts';
 import { FaceDriver } from './ui/stage/face_driver.ts';
 import { flyToPoints } from './ui/page/point_flight.ts';
@@ -68,8 +71,13 @@ function main(root: HTMLElement, session: Session | null, theme: HTMLElement): v
 
   const studio = new Studio(api, toasts);
   const drafts = new DraftStore(browserStorage());
+  const settings = new SettingsStore(browserStorage());
   const points = new PointsModel(studio, drafts);
-  studio.onRemoved = (id) => drafts.forget(id);
+  const hidden = new HiddenParts(studio, settings);
+  studio.onRemoved = (id) => {
+    drafts.forget(id);
+    settings.forget(id);
+  };
   const fit = new FitModel(studio);
   const parametrizer = new Parametrizer(studio, points);
   const frame = neutralFrame();
@@ -133,7 +141,7 @@ function main(root: HTMLElement, session: Session | null, theme: HTMLElement): v
   const panels = {
     heads: shelf.element,
     fit: fitPanel.element,
-    points: new PointsPanel(studio, points, parametrizer).element,
+    points: new PointsPanel(studio, points, parametrizer, hidden).element,
     animate: animate.element,
     live: livePanel.element,
   };
@@ -157,6 +165,7 @@ function main(root: HTMLElement, session: Session | null, theme: HTMLElement): v
   flyToPoints(studio, points, scene);
   points.positionOf = (vertex) => scene.preview?.positionOf(vertex)?.toArray() ?? null;
   showSelected(studio, points, scene);
+  hideParts(canvas, scene, studio, hidden);
   takeThumbnails(studio, scene, shelf);
   // The first head is what is kept first; the development server's pages change all the time.
   const kept = scene.state.watch(({ kind }) => {

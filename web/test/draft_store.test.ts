@@ -1,21 +1,7 @@
 import { describe, expect, test } from 'vitest';
 import { PointDraft, type PlacedPoint } from '../src/face/point_draft.ts';
 import { DraftStore } from '../src/ui/points/draft_store.ts';
-
-/** A browser's storage in plain memory. */
-function memory(entries: Record<string, string> = {}): Storage {
-  const map = new Map(Object.entries(entries));
-  return {
-    get length() {
-      return map.size;
-    },
-    clear: () => map.clear(),
-    key: (index) => [...map.keys()][index] ?? null,
-    getItem: (key) => map.get(key) ?? null,
-    setItem: (key, value) => void map.set(key, value),
-    removeItem: (key) => void map.delete(key),
-  };
-}
+import { memory } from './support/memory.ts';
 
 const at = (vertex: number): PlacedPoint => ({ vertex, position: [vertex, 0, 0] });
 

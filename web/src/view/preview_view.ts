@@ -88,6 +88,21 @@ export class PreviewView {
       if ('wireframe' in (mesh.material as object)) (mesh.material as unknown as { wireframe: boolean }).wireframe = on;
   }
 
+  /** Draws and picks the other parts only. */
+  hide(parts: ReadonlySet<number>): void {
+    for (const { geometry } of this.meshes) {
+      const { index } = geometry;
+      if (!index || !geometry.hasAttribute('_part')) continue;
+      // All triangles stay in the index: those that are seen come first, and the range of what is drawn ends behind them.
+      const seen = cornersOf(geometry, (part) => !parts.has(part));
+      if (seen.length < index.count || geometry.drawRange.count < index.count) {
+        index.array.set([...seen, ...cornersOf(geometry, (part) => parts.has(part))]);
+        index.needsUpdate = true;
+        geometry.setDrawRange(0, seen.length);
+      }
+    }
+  }
+
   /** The box of the head, with room below the chin, where it is a part of a body or a bust; otherwise null. */
   head(): Box | null {
     return framedHead(

@@ -3,7 +3,7 @@ import { h, replace } from '../shared/dom.ts';
 import type { FitModel } from './fit_model.ts';
 import { formatCount } from '../shared/format.ts';
 import { icon } from '../shared/icons.ts';
-import { roleTitles } from '../shared/names.ts';
+import { partName, roleTitles } from '../shared/names.ts';
 import type { Studio } from '../shared/studio.ts';
 import { t } from '../../words/words.ts';
 
@@ -98,7 +98,7 @@ export class PartsPanel {
   }
 
   private row(part: ModelPart): HTMLElement {
-    const name = part.name === '' ? t('Part {index}', { index: part.index }) : part.name;
+    const name = partName(part);
     const select = h(
       'select',
       { 'aria-label': t('Role of {name} (part {index})', { name, index: part.index }) },

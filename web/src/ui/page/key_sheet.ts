@@ -25,6 +25,8 @@ const sheet = (): { place: string; keys: [HTMLElement[], string][] }[] => [
       [kbd(t('Space')), t('Place the chosen point at the cross')],
       [kbd('Enter'), t('Confirm a proposal')],
       [kbd('Delete'), t('Remove the chosen point')],
+      [kbd('H'), t('Hide the part under the mouse, or at the cross')],
+      [kbd('Shift', 'H'), t('Show all parts')],
       [kbd('Esc'), t('Choose no point')],
       [kbd('Ctrl', 'Z'), t('Undo')],
       [kbd('Ctrl', 'Shift', 'Z'), t('Redo')],

@@ -1,6 +1,6 @@
+import type { HiddenParts } from '../points/hidden_parts.ts';
 import type { PointsModel } from '../points/points_model.ts';
 import type { SceneView } from '../stage/scene.ts';
-import type { Studio } from '../shared/studio.ts';
 import { rolesOfPoint } from '../../view/pick_through.ts';
 import type { PartRole } from '../../net/types.ts';
 import type { Marker } from '../../view/markers.ts';
@@ -15,13 +15,13 @@ const atMarker = 0.12;
 export class PointPicker {
   constructor(
     private readonly scene: SceneView,
-    private readonly studio: Studio,
     private readonly points: PointsModel,
+    private readonly hidden: HiddenParts,
   ) {}
 
   /** The place of point `id` at `x`, `y` (normalized device coordinates, -1..1 from the lower left). */
   pick(id: string, x: number, y: number): Pick | null {
-    const parts = this.studio.selected.value?.parts ?? [];
+    const { parts } = this.hidden;
     const { preview, stage } = this.scene;
     return (
       preview?.pick(x, y, stage.camera, {
@@ -36,7 +36,8 @@ export class PointPicker {
   partsAround(id: string): Set<number> {
     const roles = rolesOfPoint(id);
     const seen = (role: PartRole): boolean => (roles.includes('skin') ? role !== 'attached' && role !== 'rest' : roles.includes(role));
-    return new Set((this.studio.selected.value?.parts ?? []).filter(({ role }) => seen(role)).map(({ index }) => index));
+    const { parts, hidden } = this.hidden;
+    return new Set(parts.filter(({ role, index }) => seen(role) && !hidden.value.has(index)).map(({ index }) => index));
   }
 
   /** The marker under a pointer (CSS pixels of the picture) that can be dragged: the chosen one before others; not one behind the head. */

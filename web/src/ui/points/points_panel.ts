@@ -4,6 +4,8 @@ import { Guide } from './guide.ts';
 import { icon, type IconName } from '../shared/icons.ts';
 import { ParametrizeBox } from './parametrize_box.ts';
 import type { Parametrizer } from './parametrizer.ts';
+import type { HiddenParts } from './hidden_parts.ts';
+import { PartsBox } from './parts_box.ts';
 import { PointCard } from './point_card.ts';
 import { PointList } from './point_list.ts';
 import type { PointsModel } from './points_model.ts';
@@ -30,6 +32,7 @@ export class PointsPanel {
     private readonly studio: Studio,
     private readonly points: PointsModel,
     parametrizer: Parametrizer,
+    hidden: HiddenParts,
   ) {
     document.addEventListener('keydown', (event) => this.key(event));
     this.guide = new Guide({ onSelect: (id) => points.toggle(id) });
@@ -71,6 +74,7 @@ export class PointsPanel {
       new PointCard(points).element,
       new ProposalsBox(studio, points).element,
       this.notices,
+      new PartsBox(studio, hidden).element,
       list.search,
       list.element,
       new ParametrizeBox(studio, points, parametrizer, { withSave: true }).element,

@@ -48,6 +48,8 @@ export const roleTitles: Record<string, string> = {
   body: t('Body'),
 };
 
+export const partName = ({ name, index }: { name: string; index: number }): string => (name === '' ? t('Part {index}', { index }) : name);
+
 export const stageTitles: Record<string, string> = {
   read: t('Reading the file'),
   import: t('Reading the file'),

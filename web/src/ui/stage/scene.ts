@@ -52,6 +52,7 @@ export class SceneView {
   private path: DeformPath = 'gpu';
   private wire = false;
   private lipFollows = false;
+  private hidden: ReadonlySet<number> = new Set();
   private opening: AbortController | null = null;
   private model: Model | null = null;
   private shown = '';
@@ -150,6 +151,13 @@ export class SceneView {
     this.stage.invalidate();
   }
 
+  /** These parts of the still model are neither drawn nor picked. */
+  hideParts(parts: ReadonlySet<number>): void {
+    this.hidden = parts;
+    this.preview?.hide(parts);
+    this.stage.invalidate();
+  }
+
   setMarkers(markers: Marker[]): void {
     this.markers.set(markers);
     this.stage.invalidate();
@@ -231,14 +239,16 @@ export class SceneView {
     this.stage.invalidate();
   }
 
-  /** A small image of the head, without its weights and points. */
+  /** A small image of the whole head, without its weights and points. */
   thumbnail(size: number): string {
-    const { painted } = this;
+    const { painted, preview, hidden } = this;
+    preview?.hide(new Set());
     const on = painted?.on ?? false;
     if (painted) painted.on = false;
     this.markers.object.visible = this.highlight.object.visible = false;
     const image = this.stage.thumbnail(size);
     if (painted) painted.on = on;
+    preview?.hide(hidden);
     this.show(this.wanted);
     return image;
   }
@@ -280,6 +290,7 @@ export class SceneView {
     this.preview?.dispose();
     this.preview = preview;
     this.previewKey = key;
+    preview?.hide(this.hidden);
     if (preview) this.stage.scene.add(preview.object);
   }
 
