@@ -79,6 +79,19 @@ describe('feature points', () => {
     );
     await page.setInputFiles('#points-file', file);
     await page.getByText('20 of 84 placed').waitFor();
+
+    // The file is one step back, and so is the other side.
+    await page.keyboard.press('Control+z');
+    await page.getByText('0 of 84 placed', { exact: true }).waitFor();
+    await page.getByRole('button', { name: 'Save 20 changes' }).waitFor();
+    await page.keyboard.press('Control+Shift+z');
+    await page.getByText('20 of 84 placed').waitFor();
+    await page.getByRole('button', { name: 'Saved' }).waitFor();
+    await page.getByRole('button', { name: 'Fill the missing side by mirroring' }).click();
+    await page.getByText(/^(2[1-9]|3\d) of 84 placed/).waitFor();
+    await page.keyboard.press('Control+z');
+    await page.getByText('20 of 84 placed').waitFor();
+
     await page.getByRole('button', { name: 'Propose missing points' }).click();
     const confirmAll = page.getByRole('button', { name: 'Confirm all' });
     await confirmAll.waitFor();

@@ -38,6 +38,7 @@ import { LivePanel } from './ui/live/live_panel.ts';
 import { Parametrizer } from './ui/points/parametrizer.ts';
 import { PerformanceModel } from './ui/live/performance_model.ts';
 import { PerformancePanel } from './ui/live/performance_panel.ts';
+import { MirrorLock } from './ui/points/mirror_lock.ts';
 import { PointPicker } from './ui/page/point_picker.ts';
 import { PointsModel } from './ui/points/points_model.ts';
 import { PointsPanel } from './ui/points/points_panel.ts';
@@ -72,7 +73,7 @@ function main(root: HTMLElement, session: Session | null, theme: HTMLElement): v
   const studio = new Studio(api, toasts);
   const drafts = new DraftStore(browserStorage());
   const settings = new SettingsStore(browserStorage());
-  const points = new PointsModel(studio, drafts);
+  const points = new PointsModel(studio, drafts, new MirrorLock(studio, settings));
   const hidden = new HiddenParts(studio, settings);
   studio.onRemoved = (id) => {
     drafts.forget(id);
@@ -163,6 +164,7 @@ function main(root: HTMLElement, session: Session | null, theme: HTMLElement): v
   stagePanel.onPart = (part) => fitPanel.revealPart(part);
   pointOutFindings(studio, fit, points, scene);
   flyToPoints(studio, points, scene);
+  points.imageOf = (id, vertex, middle) => picker.imageOf(id, vertex, middle);
   points.positionOf = (vertex) => scene.preview?.positionOf(vertex)?.toArray() ?? null;
   showSelected(studio, points, scene);
   hideParts(canvas, scene, studio, hidden);

@@ -25,6 +25,20 @@ describe('point draft', () => {
     expect(draft.points.get('2.1')?.vertex).toBe(6);
   });
 
+  test('Draft_PairPlacedOrRemoved_IsOneStep', () => {
+    const draft = new PointDraft();
+    draft.placeAll([['8.3', at(1)], ['8.4', at(2)]]);
+    draft.remove('8.3', '8.4');
+    expect(draft.points.size).toBe(0);
+    draft.undo();
+    expect(verticesOf(draft)).toEqual({ '8.3': 1, '8.4': 2 });
+    draft.undo();
+    expect(draft.canUndo).toBe(false);
+    expect(draft.points.size).toBe(0);
+    expect(() => draft.placeAll([['8.3', at(1)], ['1.1', at(2)]])).toThrow(RangeError);
+    expect(draft.points.size).toBe(0);
+  });
+
   test('Draft_PlaceAfterUndo_ForgetsWhatWasUndone', () => {
     const draft = new PointDraft();
     draft.place('2.1', at(1));

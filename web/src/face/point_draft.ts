@@ -65,15 +65,21 @@ export class PointDraft {
   }
 
   place(id: string, point: PlacedPoint): void {
-    if (pointById(id) === undefined) throw new RangeError(`no feature point ${id}`);
-    this.step();
-    this.current.set(id, point);
+    this.placeAll([[id, point]]);
   }
 
-  remove(id: string): void {
-    if (!this.current.has(id)) return;
+  /** Places several points as one step. */
+  placeAll(points: readonly (readonly [string, PlacedPoint])[]): void {
+    for (const [id] of points) if (pointById(id) === undefined) throw new RangeError(`no feature point ${id}`);
     this.step();
-    this.current.delete(id);
+    for (const [id, point] of points) this.current.set(id, point);
+  }
+
+  /** Removes points as one step. */
+  remove(...ids: readonly string[]): void {
+    if (!ids.some((id) => this.current.has(id))) return;
+    this.step();
+    for (const id of ids) this.current.delete(id);
   }
 
   /** Ids of the proposed points, in the server's order. */

@@ -17,12 +17,25 @@ import type { PartRole } from '@protocol/rig_document.ts';
 import { pickThrough, type Meeting } from './pick_through.ts';
 import { framedHead, type Box } from './head_box.ts';
 
-/** A picked place on the mesh: the file's number of the vertex nearest to the pointer's hit. */
-export interface Pick {
+/** A vertex of the file, by number, and its position. */
+export interface PickedVertex {
   fileVertex: number;
+  position: [number, number, number];
+}
+
+/** A picked place on the mesh, with the vertex nearest to it. */
+export interface Pick extends PickedVertex {
   /** Part index, or null for a model imported by a version that did not store parts. */
   part: number | null;
-  position: [number, number, number];
+}
+
+/** The vertices of all meshes, in the scene's space. `parts`: -1 where the model does not tell. */
+interface VertexTable {
+  positions: Float32Array;
+  normals: Float32Array;
+  /** Numbers of the file's vertices. */
+  numbers: Int32Array;
+  parts: Int32Array;
 }
 
 /** The parts that a pick is meant for. */
@@ -41,6 +54,7 @@ export class PreviewView {
   private readonly meshes: Mesh[] = [];
   private readonly raycaster = new Raycaster();
   private readonly pointer = new Vector2();
+  private table: VertexTable | null = null;
   private positionOfFileVertex: Map<number, Vector3> | null = null;
 
   private constructor(
@@ -146,6 +160,32 @@ export class PreviewView {
     };
   }
 
+  /**
+   * The vertex nearest to the mirror image of a vertex of the file, `middle` being the x of the plane, on the parts that qualify
+   * and within `reach`; null: none. Where two rims touch, the normals tell which of them is meant.
+   */
+  mirrored(fileVertex: number, middle: number, reach: number, qualifies: (part: number) => boolean): PickedVertex | null {
+    const { positions, normals, numbers, parts } = (this.table ??= tableOf(this.meshes));
+    const from = numbers.indexOf(fileVertex) * 3;
+    if (from < 0) return null;
+    const [x, y, z] = [2 * middle - positions[from]!, positions[from + 1]!, positions[from + 2]!];
+    const turn = (reach * 0.05) ** 2; // what a normal of the other side counts, squared model units
+    let best = -1;
+    let least = Infinity;
+    for (let v = 0; v < numbers.length; v += 1) {
+      const i = v * 3;
+      const distance = (positions[i]! - x) ** 2 + (positions[i + 1]! - y) ** 2 + (positions[i + 2]! - z) ** 2;
+      if (distance >= least || distance > reach * reach || !qualifies(parts[v]!)) continue;
+      const alike = normals[i + 1]! * normals[from + 1]! + normals[i + 2]! * normals[from + 2]! - normals[i]! * normals[from]!;
+      const cost = distance + turn * (1 - alike);
+      if (cost >= least) continue;
+      least = cost;
+      best = v;
+    }
+    if (best < 0) return null;
+    return { fileVertex: numbers[best]!, position: [positions[best * 3]!, positions[best * 3 + 1]!, positions[best * 3 + 2]!] };
+  }
+
   private meeting({ object, face, distance }: Intersection, { roleOf }: Meant): Meeting {
     const { geometry } = object as Mesh;
     const part = face && geometry.hasAttribute('_part') ? partOf(geometry, face.a) : null;
@@ -243,6 +283,29 @@ const corner = new Vector3();
 
 const partOf = (geometry: BufferGeometry, vertex: number): number =>
   Math.round(geometry.getAttribute('_part').getX(vertex));
+
+function tableOf(meshes: readonly Mesh[]): VertexTable {
+  const count = meshes.reduce((sum, { geometry }) => sum + geometry.getAttribute('position').count, 0);
+  const table = {
+    positions: new Float32Array(count * 3),
+    normals: new Float32Array(count * 3),
+    numbers: new Int32Array(count),
+    parts: new Int32Array(count).fill(-1),
+  };
+  let at = 0;
+  for (const { geometry, matrixWorld } of meshes) {
+    const position = geometry.getAttribute('position') as BufferAttribute;
+    const normal = geometry.getAttribute('normal') as BufferAttribute;
+    const hasParts = geometry.hasAttribute('_part');
+    for (let v = 0; v < position.count; v += 1, at += 1) {
+      corner.fromBufferAttribute(position, v).applyMatrix4(matrixWorld).toArray(table.positions, at * 3);
+      corner.fromBufferAttribute(normal, v).toArray(table.normals, at * 3);
+      table.numbers[at] = fileVertexOf(geometry, v);
+      if (hasParts) table.parts[at] = partOf(geometry, v);
+    }
+  }
+  return table;
+}
 
 /** The corners of the triangles of the parts that qualify. */
 function cornersOf(geometry: BufferGeometry, qualifies: (part: number) => boolean): number[] {

@@ -59,7 +59,7 @@ export class FitPanel {
         return points.chosen.set(action.point);
       case 'move':
         studio.tab.set('points');
-        return points.move(action.move.point, action.move.vertex, action.move.position);
+        return points.move(action.move.point, { vertex: action.move.vertex, position: action.move.position });
       case 'exchange':
         studio.tab.set('points');
         return points.exchange(finding.place.points);

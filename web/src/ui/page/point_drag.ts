@@ -1,13 +1,12 @@
-import { Group, type Object3D } from 'three';
-import type { PlacedPoint } from '../../face/point_draft.ts';
+import type { Object3D } from 'three';
 import { Loupe } from '../../view/loupe.ts';
-import type { Pick, PreviewView } from '../../view/preview_view.ts';
+import type { PreviewView } from '../../view/preview_view.ts';
 import type { PointsModel } from '../points/points_model.ts';
 import { h } from '../shared/dom.ts';
 import type { Studio } from '../shared/studio.ts';
 import type { SceneView } from '../stage/scene.ts';
 import { placeLoupe } from './loupe_place.ts';
-import type { PointPicker } from './point_picker.ts';
+import type { PickedPoint, PointPicker } from './point_picker.ts';
 
 /** Edge of the loupe, CSS pixels. */
 const size = 124;
@@ -26,8 +25,8 @@ interface Held {
   /** From the pointer to the marker, so that it does not jump. */
   offset: { x: number; y: number };
   preview: PreviewView;
-  /** The head without what covers the place of the point. */
-  bare: Object3D;
+  /** The head without what covers the place of the point, and which parts these are. */
+  bare: Object3D | null;
   parts: ReadonlySet<number>;
 }
 
@@ -44,7 +43,7 @@ export class PointDrag {
   private moved = false;
   private readonly pointer = { x: 0, y: 0 };
   private readonly place = { x: 0, y: 0 };
-  private last: Pick | null = null;
+  private last: PickedPoint | null = null;
   private without: Object3D[] = [];
 
   constructor(
@@ -105,9 +104,10 @@ export class PointDrag {
       offset: { x: at.x - x, y: at.y - y },
       preview,
       parts,
-      bare: new Group(),
+      bare: null,
     };
     scene.stage.controls.enabled = false;
+    this.canvas.setPointerCapture(event.pointerId);
   }
 
   /** A second finger: the camera's controls take both. */
@@ -134,12 +134,12 @@ export class PointDrag {
 
   private begin(held: Held): void {
     this.dragging = true;
-    this.canvas.setPointerCapture(held.pointer);
     this.canvas.classList.add('dragging-point');
     this.points.pick(held.id);
-    held.bare = held.preview.only(held.parts);
-    held.bare.visible = false;
-    this.scene.stage.scene.add(held.bare);
+    const bare = held.preview.only(held.parts);
+    bare.visible = false;
+    this.scene.stage.scene.add(bare);
+    held.bare = bare;
     this.element.hidden = false;
   }
 
@@ -147,25 +147,28 @@ export class PointDrag {
   private step(): void {
     this.moved = false;
     const { held, pointer, scene } = this;
-    if (!held || !this.dragging) return;
+    const bare = held?.bare;
+    if (!held || !bare) return;
     const { clientWidth: width, clientHeight: height } = this.canvas;
     const x = pointer.x + held.offset.x;
     const y = pointer.y + held.offset.y;
     const pick = this.picker.pick(held.id, (x / width) * 2 - 1, 1 - (y / height) * 2);
     if (pick) {
       this.last = pick;
-      scene.markers.moveTo(held.id, pick.position);
+      scene.markers.moveTo(held.id, pick.point.position);
+      const twin = this.points.twinOf(held.id, pick.point);
+      if (twin) scene.markers.moveTo(twin[0], twin[1].position);
     }
-    const at = this.last?.position ?? scene.markers.of(held.id)?.position;
+    const at = this.last?.point.position ?? scene.markers.of(held.id)?.position;
     if (!at) return;
     const seen = scene.markers.project(at, scene.stage.camera, width, height);
     // What covers the skin is left out, unless the point lies on what covers it.
-    const bare = this.last?.part != null && held.parts.has(this.last.part);
+    const uncovered = this.last?.part != null && held.parts.has(this.last.part);
     this.without[0] = scene.markers.object;
-    this.without[1] = bare ? held.preview.object : held.bare;
-    held.bare.visible = true;
+    this.without[1] = uncovered ? held.preview.object : bare;
+    bare.visible = true;
     this.loupe.draw(seen.x, seen.y, size, this.without);
-    held.bare.visible = false;
+    bare.visible = false;
     placeLoupe(pointer, width, height, size / 2, held.hand.covers, this.place);
     this.element.style.translate = `${this.place.x - size / 2}px ${this.place.y - size / 2}px`;
   }
@@ -189,9 +192,8 @@ export class PointDrag {
     this.canvas.classList.remove('dragging-point');
     scene.stage.controls.enabled = true;
     if (!dragging) return;
-    held.preview.release(held.bare);
-    const point: PlacedPoint | undefined = last ? { vertex: last.fileVertex, position: last.position } : undefined;
-    if (keep && point?.vertex != null) this.points.move(held.id, point.vertex, point.position);
+    if (held.bare) held.preview.release(held.bare);
+    if (keep && last) this.points.move(held.id, last.point);
     else this.points.changed.notify(); // the markers go back
     scene.stage.invalidate();
   }

@@ -38,6 +38,6 @@ export class HiddenParts {
 
   private take(hidden: ReadonlySet<number>): void {
     this.hidden.set(hidden);
-    if (this.head !== null) this.store.keep(this.head, { hidden: [...hidden] });
+    if (this.head !== null) this.store.change(this.head, { hidden: [...hidden] });
   }
 }

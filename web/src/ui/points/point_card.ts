@@ -1,4 +1,5 @@
 import { pointById } from '../../face/feature_points.ts';
+import { partnerOf } from '../../face/mirror_points.ts';
 import { leastKnownPoints, quickSet } from '../../face/quick_set.ts';
 import { h, redraw, replace, type Child } from '../shared/dom.ts';
 import { formatNumber } from '../shared/format.ts';
@@ -16,6 +17,8 @@ export class PointCard {
     points.changed.watch(() => this.draw());
     points.chosen.watch(() => this.draw());
     points.guided.watch(() => this.draw());
+    points.lock.on.watch(() => this.draw());
+    points.lock.apart.watch(() => this.draw());
   }
 
   private draw(): void {
@@ -37,6 +40,7 @@ export class PointCard {
         { class: 'row' },
         h('code', { class: 'id' }, point.id),
         h('strong', { class: 'grow' }, capital(point.name)),
+        this.linkButton(point.id),
         place ? this.removeButton(point.id) : null,
       ),
       step >= 0 ? h('p', { class: 'hint' }, quickSet[step]!.hint) : null,
@@ -75,6 +79,28 @@ export class PointCard {
     if (!place) return t('Click on the head to place it.');
     if (place.vertex === null) return t('At {list}', { list: place.position.map((value) => formatNumber(value, 4)).join(' · ') });
     return t('On vertex {vertex}. Drag it, or click elsewhere.', { vertex: place.vertex });
+  }
+
+  /** Takes this pair apart, or links it again, while left and right points move together. */
+  private linkButton(id: string): HTMLElement | null {
+    const partner = partnerOf(id);
+    const { lock } = this.points;
+    if (partner === null || !lock.on.value) return null;
+    const linked = lock.twinOf(id) !== null;
+    const label = t('{partner} moves with it', { partner });
+    return h(
+      'button',
+      {
+        type: 'button',
+        class: 'quiet square small',
+        'data-focus': 'link',
+        'aria-pressed': String(linked),
+        'aria-label': label,
+        title: linked ? label : t('{partner} stays where it is', { partner }),
+        on: { click: () => lock.link(id, !linked) },
+      },
+      icon(linked ? 'linked' : 'unlinked', 16),
+    );
   }
 
   private removeButton(id: string): HTMLElement {

@@ -1,10 +1,12 @@
 import { featurePoints } from '@protocol/generated/mpeg4.ts';
+import { middleOf } from '../../face/mirror_points.ts';
 import { PointDraft, proposalBody, type PlacedPoint } from '../../face/point_draft.ts';
 import { leastKnownPoints, quickSet } from '../../face/quick_set.ts';
 import { ApiError, featurePointOf, fieldProblems, problemOf } from '../../net/problem.ts';
 import type { FeaturePointsBody, FeaturePointSet, Model } from '../../net/types.ts';
 import { Signal } from '../shared/signal.ts';
 import type { DraftStore } from './draft_store.ts';
+import type { MirrorLock } from './mirror_lock.ts';
 import type { Studio } from '../shared/studio.ts';
 import { t } from '../../words/words.ts';
 
@@ -35,9 +37,13 @@ export class PointsModel {
   /** The position of a vertex of the file, model units; used for points that the server returns without a position. */
   positionOf: (vertex: number) => readonly [number, number, number] | null = () => null;
 
+  /** The place on the head for point `id` at the image of a vertex, `middle` being the middle of the head; null: none is near. */
+  imageOf: (id: string, vertex: number, middle: number) => PlacedPoint | null = () => null;
+
   constructor(
     private readonly studio: Studio,
     private readonly drafts: DraftStore,
+    readonly lock: MirrorLock,
   ) {}
 
   get total(): number {
@@ -90,22 +96,38 @@ export class PointsModel {
     };
   }
 
-  place(vertex: number, position: readonly [number, number, number]): void {
+  /** Places the chosen point, and with it the one that moves with it. */
+  place(point: PlacedPoint): void {
     const id = this.chosen.value;
     if (id === null) return;
     const isNew = !this.draft.points.has(id);
-    this.draft.place(id, { vertex, position });
-    this.forgive(id);
+    this.put(id, point);
     this.touch();
     if (isNew && this.guided.value) this.chooseNext();
   }
 
   /** Moves a placed point, and selects it. */
-  move(id: string, vertex: number, position: readonly [number, number, number]): void {
-    this.draft.place(id, { vertex, position });
-    this.forgive(id);
+  move(id: string, point: PlacedPoint): void {
+    this.put(id, point);
     this.chosen.set(id);
     this.touch();
+  }
+
+  private put(id: string, point: PlacedPoint): void {
+    const twin = this.twinOf(id, point);
+    this.draft.placeAll(twin ? [[id, point], twin] : [[id, point]]);
+    this.forgive(id);
+    if (twin) this.forgive(twin[0]);
+  }
+
+  /** The point that moves with this one, and where it goes when this one goes to `point`; null: none. */
+  twinOf(id: string, { vertex, position }: PlacedPoint): [string, PlacedPoint] | null {
+    const twin = this.lock.twinOf(id);
+    if (twin === null) return null;
+    const middle = middleOf(this.draft.points);
+    if (vertex === null) return [twin, { vertex, position: [2 * middle - position[0], position[1], position[2]] }];
+    const at = this.imageOf(twin, vertex, middle);
+    return at ? [twin, at] : null;
   }
 
   /** Chooses a point by its marker on the head. */
@@ -160,18 +182,27 @@ export class PointsModel {
     );
   }
 
+  /** Removes a point, and the one that moves with it. */
   remove(id: string): void {
-    this.draft.remove(id);
-    this.forgive(id);
+    const ids = [id, this.lock.twinOf(id)].filter((one) => one !== null);
+    this.draft.remove(...ids);
+    for (const one of ids) this.forgive(one);
     this.touch();
   }
 
   undo(): void {
-    if (this.draft.undo()) this.touch();
+    this.travel(() => this.draft.undo());
   }
 
   redo(): void {
-    if (this.draft.redo()) this.touch();
+    this.travel(() => this.draft.redo());
+  }
+
+  private travel(step: () => boolean): void {
+    const before = this.draft.points;
+    if (!step()) return;
+    for (const id of this.problems.keys()) if (before.get(id) !== this.draft.points.get(id)) this.forgive(id);
+    this.touch();
   }
 
   /** Selects the next unplaced point in the current order or, when all are placed, the next proposed one. */
@@ -208,7 +239,7 @@ export class PointsModel {
   }
 
   save(mirror = false): Promise<boolean> {
-    return this.put(
+    return this.send(
       this.draft.toBody(),
       mirror ? t('The missing sides were not filled in') : t('The feature points were not saved'),
       { mirror, guarded: true },
@@ -242,7 +273,7 @@ export class PointsModel {
       return false;
     }
     const back = this.wayBack();
-    const done = await this.put(body, t('The points of {name} were not accepted', { name: file.name }), { mirror: false, guarded: true });
+    const done = await this.send(body, t('The points of {name} were not accepted', { name: file.name }), { mirror: false, guarded: true });
     if (done)
       this.studio.toasts.say(t('{count} feature points read from {name}.', { count: this.draft.points.size, name: file.name }), {
         label: t('Undo'),
@@ -289,7 +320,7 @@ export class PointsModel {
     this.touch();
   }
 
-  private async put(body: FeaturePointsBody, failure: string, options: { mirror: boolean; guarded: boolean }): Promise<boolean> {
+  private async send(body: FeaturePointsBody, failure: string, options: { mirror: boolean; guarded: boolean }): Promise<boolean> {
     const model = this.model;
     if (!model) return false;
     this.busy.set(true);

@@ -22,6 +22,11 @@ export class PointsPanel {
   private readonly notices = h('div', { class: 'notices' });
   private readonly undo = this.tool(t('Undo (Ctrl+Z)'), 'undo', () => this.points.undo());
   private readonly redo = this.tool(t('Redo (Ctrl+Shift+Z)'), 'redo', () => this.points.redo());
+  private readonly lock = this.tool(
+    t('Move left and right points together'),
+    'linked',
+    () => this.points.lock.lock(!this.points.lock.on.value),
+  );
   private readonly mirror = this.tool(
     t('Fill the missing side by mirroring'),
     'mirror',
@@ -64,6 +69,7 @@ export class PointsPanel {
           this.undo,
           this.redo,
           this.mirror,
+          this.lock,
           this.tool(t('Import points from a file'), 'upload', () => file.click()),
           this.tool(t('Export points to a file'), 'download', () => points.exportFile()),
           file,
@@ -80,6 +86,7 @@ export class PointsPanel {
       new ParametrizeBox(studio, points, parametrizer, { withSave: true }).element,
     );
     points.changed.watch(() => this.draw());
+    points.lock.on.watch((on) => this.lock.setAttribute('aria-pressed', String(on)));
     points.chosen.watch((id) => this.guide.select(id));
     points.busy.watch(() => this.draw());
     studio.selected.watch(() => this.draw());
