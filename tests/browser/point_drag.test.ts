@@ -190,6 +190,31 @@ describe('drag of a point', () => {
   });
 });
 
+test('Drag_Pupil_MayLieInsideATriangle_WhichTheServerKeeps', async () => {
+  const studio = await StudioPage.open(browser, `${server.url}/#sample/points?point=3.5`, { width: 1440, height: 900 });
+  const { page } = studio;
+  await openAt(studio, '3.5');
+  const from = await spotOf(studio, '3.5');
+  const goal = { x: from.x + 9, y: from.y + 7 };
+  await page.mouse.move(from.x, from.y);
+  await page.mouse.down();
+  await page.mouse.move(goal.x, goal.y, { steps: 5 });
+  await studio.drawn(3);
+  await page.mouse.up();
+  expect(apart(await spotOf(studio, '3.5'), goal)).toBeLessThan(0.5); // a place of the surface, not the nearest vertex
+  await page.locator('.point-card').getByText(/^At /).waitFor();
+  await page.getByRole('button', { name: 'Save 1 change' }).click();
+  await page.getByRole('button', { name: 'Saved' }).waitFor();
+  const { points } = (await (await fetch(`${server.url}/v1/models/sample/feature-points`)).json()) as {
+    points: Record<string, { vertex: number | null; position: number[] }>;
+  };
+  expect(points['3.5']!.vertex).toBeNull();
+  const position = await positionOf(studio, '3.5');
+  points['3.5']!.position.forEach((value, axis) => expect(value).toBeCloseTo(position[axis]!, 5));
+  expect(studio.errors).toEqual([]);
+  await studio.close();
+});
+
 async function touch(session: CDPSession, type: 'touchStart' | 'touchMove' | 'touchEnd', fingers: Spot[]): Promise<void> {
   await session.send('Input.dispatchTouchEvent', { type, touchPoints: fingers.map(({ x, y }, id) => ({ x, y, id })) });
 }

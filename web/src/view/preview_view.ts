@@ -3,6 +3,7 @@ import {
   Group,
   Mesh,
   Raycaster,
+  Triangle,
   Vector2,
   Vector3,
   type BufferAttribute,
@@ -27,6 +28,9 @@ export interface PickedVertex {
 export interface Pick extends PickedVertex {
   /** Part index, or null for a model imported by a version that did not store parts. */
   part: number | null;
+  /** Where the surface itself is hit, inside a triangle, and how much of this place is the vertex's: 1 at the vertex. */
+  hit: [number, number, number];
+  share: number;
 }
 
 /** The vertices of all meshes, in the scene's space. `parts`: -1 where the model does not tell. */
@@ -152,11 +156,15 @@ export class PreviewView {
         best = vertex;
       }
     }
-    corner.fromBufferAttribute(position, best).applyMatrix4(mesh.matrixWorld);
+    const place = (vertex: number, to: Vector3): Vector3 => to.fromBufferAttribute(position, vertex).applyMatrix4(mesh.matrixWorld);
+    Triangle.getBarycoord(hit.point, place(hit.face.a, edge.a), place(hit.face.b, edge.b), place(hit.face.c, edge.c), shares);
+    place(best, corner);
     return {
       fileVertex: fileVertexOf(mesh.geometry, best),
       part: mesh.geometry.hasAttribute('_part') ? partOf(mesh.geometry, best) : null,
       position: [corner.x, corner.y, corner.z],
+      hit: hit.point.toArray(),
+      share: Math.max(shares.x, shares.y, shares.z),
     };
   }
 
@@ -280,6 +288,8 @@ export class PreviewView {
 }
 
 const corner = new Vector3();
+const edge = new Triangle();
+const shares = new Vector3();
 
 const partOf = (geometry: BufferGeometry, vertex: number): number =>
   Math.round(geometry.getAttribute('_part').getX(vertex));

@@ -11,8 +11,13 @@ const throughDepth = 0.3;
 /** A marker is seen where the surface under it is this near to it, in radii of the head. */
 const atMarker = 0.12;
 
+/** From this share of a triangle's corner on, a click means the vertex. */
+const atVertex = 0.85;
 /** How far from its exact image the vertex of the other side may be, in radii of the head. */
 const mirrorReach = 0.12;
+
+/** A pupil moves with the eyeball, not with a vertex, and may lie inside a triangle. */
+const isPupil = (id: string): boolean => id === '3.5' || id === '3.6';
 
 export interface PickedPoint {
   point: PlacedPoint;
@@ -37,7 +42,11 @@ export class PointPicker {
       depth: stage.headRadius * throughDepth,
     });
     if (!pick) return null;
-    return { point: { vertex: pick.fileVertex, position: pick.position }, part: pick.part };
+    const exact = isPupil(id) && pick.share < atVertex;
+    return {
+      point: exact ? { vertex: null, position: pick.hit } : { vertex: pick.fileVertex, position: pick.position },
+      part: pick.part,
+    };
   }
 
   /** The place for point `id` at the mirror image of a vertex; null: the head has none there. */
