@@ -128,7 +128,8 @@ function main(root: HTMLElement, session: Session | null, theme: HTMLElement): v
   const overlay = new LiveOverlay(live, driver);
   const livePanel = new LivePanel(studio, live, performance.element, recordingsPanel.element, overlay.on);
   const chip = makeDriverChip({ driver, live, clip: clip.shown, recordings, scene, tab: studio.tab });
-  const stagePanel = new StagePanel(canvas, scene, studio, points, [chip, compare.label], influence.on);
+  const picker = new PointPicker(scene, points, hidden);
+  const stagePanel = new StagePanel(canvas, scene, studio, points, picker, [chip, compare.label], influence.on);
   stagePanel.element.append(influenceLegend(influence, scene), overlay.element, reader.element, reader.said);
   // Loaded when points can be dragged, not with the first picture.
   const untilPoints = studio.tab.watch((tab) => {

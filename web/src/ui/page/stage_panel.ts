@@ -38,6 +38,7 @@ export class StagePanel {
     private readonly scene: SceneView,
     private readonly studio: Studio,
     private readonly points: PointsModel,
+    private readonly picker: PointPicker,
     top: readonly HTMLElement[],
     private readonly influence: Signal<boolean>,
   ) {
