@@ -471,7 +471,6 @@ export const portuguese = {
   'Your own recording': 'A sua própria gravação',
   'Type what {name} says.': 'Escreva o que {name} diz.',
   'Remove the recording': 'Remover a gravação',
-  'its own': 'a sua própria',
   'Of the language': 'A do idioma',
   'Mouths are those of English: this language has no table of its own.':
     'As bocas são as do inglês: este idioma não tem tabela própria.',
