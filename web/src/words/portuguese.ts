@@ -471,7 +471,7 @@ export const portuguese = {
   'Your own recording': 'A sua própria gravação',
   'Type what {name} says.': 'Escreva o que {name} diz.',
   'Remove the recording': 'Remover a gravação',
-  'Of the language': 'A do idioma',
+  Default: 'Padrão',
   'Mouths are those of English: this language has no table of its own.':
     'As bocas são as do inglês: este idioma não tem tabela própria.',
   'As the text says': 'Como diz o texto',

@@ -172,7 +172,7 @@ export class SpeakPanel {
     const fitting = voicesOf(this.voices, tag);
     replace(
       this.voice,
-      h('option', { value: '' }, t('Of the language')),
+      h('option', { value: '' }, t('Default')),
       ...fitting.map(({ voice, label }) => h('option', { value: voice }, label || voice)),
     );
     this.quality.hidden = fitting[0]?.quality !== 'english';
