@@ -164,7 +164,8 @@ TEST(Vectors, Sound_BinaryAndJson_MeanTheSame) {
 
 TEST(Vectors, Refused_BinaryAndJson_AreNamedByCodeAndPointer) {
   json all = json::parse(read("refused.json")).at("refused");
-  for (const json& vector : json::parse(read("sound.json")).at("refused")) all.push_back(vector);
+  const json of_sound = json::parse(read("sound.json"));
+  for (const json& vector : of_sound.at("refused")) all.push_back(vector);
   ASSERT_GT(all.size(), 20U);
   for (const json& vector : all) {
     const std::string name = vector.at("name");
