@@ -98,7 +98,7 @@ describe('fit', () => {
     const read = async (): Promise<ModelPart[]> =>
       ((await (await fetch(`${server.url}/v1/models/${model.id}`)).json()) as { parts: ModelPart[] }).parts;
     const tongue = (await read()).find(({ role }) => role === 'tongue')!;
-    const row = page.locator(`[data-part="${tongue.index}"]`);
+    const row = page.locator(`.fit [data-part="${tongue.index}"]`);
     await row.hover();
     expect((await pointedOut(studio)).triangles).toBe(tongue.triangles);
     await page.locator('h2', { hasText: 'Fit doctor' }).hover();

@@ -107,7 +107,7 @@ float faceBallRadius(int eye, vec3 pole, vec3 d) {
   return mix(faceLidBall[k], faceLidBall[k + 1], at - float(k - eye * ${ballPlaces}));
 }
 
-/** Keeps a vertex of lids off the eyeball; \`way\`: by which its height changes. See clear_ball in core/kernel/lids.c. */
+${/* Keeps a vertex of lids off the eyeball; way: by which its height changes. See clear_ball in core/kernel/lids.c. */ ''}
 void faceClearBall(int eye, float way, vec3 rest, inout vec3 p) {
   float radius = faceLidBall[(eye + 1) * ${ballPlaces} - 1];
   float wanted = 0.03 * radius;
@@ -141,7 +141,7 @@ void faceDeform(inout vec3 p, inout vec3 n) {
     vec3 t1 = vec3(1.0 + s * n.x * n.x * a, s * b, -s * n.x);
     vec3 t2 = vec3(b, s + n.y * n.y * a, -n.y);
     vec3 moved = vec3(0.0);
-    vec3 rolls = vec3(0.0); // of a lid: the share of its roll upwards, and the slopes of that
+    vec3 rolls = vec3(0.0); ${/* of a lid: the share of its roll upwards, and the slopes of that */ ''}
     for (uint k = faceRow.x; k < faceRow.x + count; ++k) {
       vec4 entry = texelFetch(faceEntries, ivec2(int(k % ${tableWidth}u), int(k / ${tableWidth}u)), 0);
       int point = int(entry.x);
@@ -157,7 +157,7 @@ void faceDeform(inout vec3 p, inout vec3 n) {
     }
     p += moved;
     if (lids >= 0) {
-      // The height of Eq. 7, on the circle round the line through the pivot along x.
+      ${/* The height of Eq. 7, on the circle round the line through the pivot along x. */ ''}
       vec3 way = faceLidOpening[lids] * rolls;
       vec2 from = p.yz - faceEyePivot[lids].yz;
       float least = 0.05 * length(from);
@@ -166,7 +166,7 @@ void faceDeform(inout vec3 p, inout vec3 n) {
       p.yz = faceEyePivot[lids].yz + to;
       vec2 risen = vec2(t1.y, t2.y) + way.yz;
       if (from.y > least) {
-        // Along a tangent the depth changes so that the place stays on its circle.
+        ${/* Along a tangent the depth changes so that the place stays on its circle. */ ''}
         vec2 deep = (from.x * vec2(t1.y, t2.y) + from.y * vec2(t1.z, t2.z) - to.x * risen) / max(to.y, least);
         t1.z = deep.x;
         t2.z = deep.y;

@@ -84,7 +84,7 @@ struct Surface { vec3 diffuse; vec3 f0; float f90; float roughness; };
 
 float sunlit() {
   if (!hasShadow || any(greaterThan(abs(shadowPlace - 0.5), vec3(0.5)))) return 1.0;
-  // A disc of taps, turned by a noise of the pixel that hides its pattern.
+  ${/* A disc of taps, turned by a noise of the pixel that hides its pattern. */ ''}
   float turn = 6.2831853 * fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
   float sum = 0.0;
   for (int i = 0; i < 8; ++i) {

@@ -29,7 +29,7 @@ export class ComparePanel {
   readonly label = h('div', { class: 'compare-label' }, h('span', { class: 'compare-text' }));
   private readonly select = h('select', { id: 'compare-with' });
   private readonly note = h('p', { class: 'muted small' });
-  private readonly go = h('button', { type: 'button', class: 'primary', on: { click: () => void this.parametrize() } });
+  private readonly go = h('button', { type: 'button', class: 'primary', on: { click: () => void this.parametrize() } }, t('Parametrize again and compare'));
   private readonly view = new Signal<CompareView | null>(null);
   private readonly busy = new Signal(false);
   /** The weights that are chosen and have to be computed first. */
