@@ -79,11 +79,6 @@ Result<GlbChunks> split_glb(std::span<const std::uint8_t> bytes) {
   return GlbChunks{*json, binary.value_or(std::span<const std::uint8_t>{})};
 }
 
-Result<std::vector<std::uint8_t>> refuse_resource(std::string_view uri, std::size_t /*max_bytes*/) {
-  return Error{ErrorCode::unsupported, "",
-               "refers to " + shown(uri) + ", which is another file; send a GLB, or a zip with all files"};
-}
-
 Result<std::vector<std::uint8_t>> decode_data_uri(std::string_view uri, std::size_t max_bytes) {
   const std::size_t comma = uri.find(',');
   constexpr std::string_view marker = ";base64";

@@ -74,8 +74,13 @@ bool is_index_type(std::uint64_t type) { return type == u8 || type == u16 || typ
 }  // namespace
 
 Result<std::vector<std::uint8_t>> GltfDocument::resource(const std::string& uri) {
+  const bool is_data = uri.starts_with("data:");
+  if (!is_data && !resources_) {
+    return Error{ErrorCode::unsupported, "",
+                 "refers to " + shown(uri) + ", which is another file; send a GLB, or a zip with all files"};
+  }
   const std::size_t left = limits_.max_file_bytes - std::min(resource_bytes_, limits_.max_file_bytes);
-  auto bytes = uri.starts_with("data:") ? decode_data_uri(uri, left) : resources_(uri, left);
+  auto bytes = is_data ? decode_data_uri(uri, left) : resources_(uri, left);
   if (bytes) resource_bytes_ += bytes->size();
   return bytes;
 }

@@ -10,6 +10,7 @@
 
 #include "core/import/gltf_container.h"
 #include "core/import/limits.h"
+#include "core/import/resource_reader.h"
 #include "core/json/json_cursor.h"
 
 namespace semblante::import {
@@ -39,7 +40,7 @@ class GltfDocument {
   /// The bytes of a buffer view for Draco decoding. A file may use one view many times; in total at most eight times
   /// its bytes are decoded, else the error too_large is reported at `where`.
   std::span<const std::uint8_t> draco_view(std::size_t index, const JsonCursor& where);
-  /// The bytes of a "uri" member: a data: URI, or a file in the same zip.
+  /// The bytes of a "uri" member: a data: URI, or another file of the model.
   Result<std::vector<std::uint8_t>> resource(const std::string& uri);
 
   /// Declared number of elements of an accessor, at most `max`.

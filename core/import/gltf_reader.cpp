@@ -306,13 +306,14 @@ Result<Model> read_document(std::string_view text, std::span<const std::uint8_t>
 
 }  // namespace
 
-Result<Model> read_glb(std::span<const std::uint8_t> bytes, const ImportLimits& limits) {
+Result<Model> read_glb(std::span<const std::uint8_t> bytes, const ImportLimits& limits,
+                       const ResourceReader& resources) {
   const auto chunks = split_glb(bytes);
   if (!chunks) return chunks.error();
-  return read_document(chunks->json, chunks->binary, refuse_resource, limits, "glb");
+  return read_document(chunks->json, chunks->binary, resources, limits, "glb");
 }
 
-Result<Model> read_gltf(std::string_view json, const ResourceReader& resources, const ImportLimits& limits) {
+Result<Model> read_gltf(std::string_view json, const ImportLimits& limits, const ResourceReader& resources) {
   return read_document(json, {}, resources, limits, "gltf");
 }
 

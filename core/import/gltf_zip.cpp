@@ -4,6 +4,7 @@
 
 #include "core/import/gltf_reader.h"
 #include "core/import/obj_reader.h"
+#include "core/import/relative_path.h"
 #include "core/import/text.h"
 #include "core/import/zip_archive.h"
 
@@ -35,7 +36,7 @@ Result<std::optional<std::string>> only_entry(const std::vector<std::string>& na
 /// does not exist, the only entry with its file name is used.
 std::optional<std::string> find_entry(const std::vector<std::string>& names, const std::string& folder,
                                       std::string_view path) {
-  auto resolved = resolve_in_zip(folder, path);
+  auto resolved = resolve_below(folder, path);
   if (resolved && std::find(names.begin(), names.end(), *resolved) != names.end()) return resolved;
   const std::string name = lower_case(std::string(path.substr(path.find_last_of("/\\") + 1)));  // npos + 1 is 0
   if (name.empty()) return std::nullopt;
@@ -87,17 +88,15 @@ Result<Model> read_gltf_zip(std::span<const std::uint8_t> bytes, const ImportLim
                       return read(*entry, max_bytes);
                     });
   }
-  if (!has_ending(*name, ".gltf")) return read_glb(*model, limits);
-  return read_gltf(
-      as_text(*model),
-      [&](std::string_view uri, std::size_t max_bytes) -> Result<std::vector<std::uint8_t>> {
-        const auto entry = resolve_in_zip(folder, uri);
-        if (!entry) {
-          return Error{ErrorCode::unsupported, "", "refers to " + shown(uri) + ", which is outside of the zip"};
-        }
-        return read(*entry, max_bytes);
-      },
-      limits);
+  const auto resources = [&](std::string_view uri, std::size_t max_bytes) -> Result<std::vector<std::uint8_t>> {
+    const auto entry = resolve_below(folder, uri);
+    if (!entry) {
+      return Error{ErrorCode::unsupported, "", "refers to " + shown(uri) + ", which is outside of the zip"};
+    }
+    return read(*entry, max_bytes);
+  };
+  return has_ending(*name, ".gltf") ? read_gltf(as_text(*model), limits, resources)
+                                    : read_glb(*model, limits, resources);
 }
 
 }  // namespace semblante::import

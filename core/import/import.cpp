@@ -63,7 +63,8 @@ Result<ModelFormat> format_of(std::span<const std::uint8_t> bytes, std::string_v
   return Error{ErrorCode::unsupported, "", "the file is none of " + model_file_titles()};
 }
 
-Result<Model> import_model(std::span<const std::uint8_t> bytes, ModelFormat format, const ImportLimits& limits) {
+Result<Model> import_model(std::span<const std::uint8_t> bytes, ModelFormat format, const ImportLimits& limits,
+                           const import::ResourceReader& resources) {
   if (bytes.size() > limits.max_file_bytes) {
     return Error{ErrorCode::too_large, "",
                  "the file has " + std::to_string(bytes.size()) + " bytes, at most " +
@@ -73,13 +74,13 @@ Result<Model> import_model(std::span<const std::uint8_t> bytes, ModelFormat form
   try {
     switch (format) {
       case ModelFormat::glb:
-        return import::read_glb(bytes, limits);
+        return import::read_glb(bytes, limits, resources);
       case ModelFormat::gltf:
-        return import::read_gltf(as_text(bytes), import::refuse_resource, limits);
+        return import::read_gltf(as_text(bytes), limits, resources);
       case ModelFormat::gltf_zip:
         return import::read_gltf_zip(bytes, limits);
       case ModelFormat::obj:
-        return import::read_obj(bytes, limits);
+        return import::read_obj(bytes, limits, resources);
       case ModelFormat::ply:
         return import::read_ply(bytes, limits);
       case ModelFormat::stl:

@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
-#include "core/import/gltf_container.h"
 #include "core/import/image_reader.h"
 #include "core/import/model_builder.h"
+#include "core/import/resource_reader.h"
 
 namespace semblante::import {
 

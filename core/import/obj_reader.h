@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <span>
 
-#include "core/import/gltf_container.h"
 #include "core/import/limits.h"
+#include "core/import/resource_reader.h"
 #include "core/types/model.h"
 #include "core/types/result.h"
 

@@ -2,10 +2,8 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/types/result.h"
@@ -32,9 +30,5 @@ class ZipArchive {
   explicit ZipArchive(zip* archive) : archive_(archive) {}
   std::unique_ptr<zip, Close> archive_;
 };
-
-/// Resolves a relative URI from an entry in `folder` ("" or "a/b/"): decodes percent codes, resolves "." and "..".
-/// nullopt for anything outside the zip: schemes, absolute paths, backslashes, ".." above the top.
-std::optional<std::string> resolve_in_zip(std::string_view folder, std::string_view uri);
 
 }  // namespace semblante::import

@@ -9,7 +9,7 @@ Result<ImportedHead> import_head(std::span<const std::uint8_t> bytes, const Impo
   if (auto told = report_progress(progress, 0.0, "reading"); !told) return told.error();
   const auto format = request.format ? Result(*request.format) : format_of(bytes, request.file_name);
   if (!format) return format.error();
-  auto model = import_model(bytes, *format, request.limits);
+  auto model = import_model(bytes, *format, request.limits, request.resources);
   if (!model) return model.error();
   ImportedHead head;
   head.model = std::move(*model);

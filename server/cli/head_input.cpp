@@ -13,6 +13,7 @@
 #include "core/propose/propose.h"
 #include "server/cli/command_failure.h"
 #include "server/cli/files.h"
+#include "server/cli/folder_resources.h"
 #include "server/cli/progress_line.h"
 
 namespace semblante {
@@ -24,6 +25,7 @@ ImportedHead import_file(const HeadOptions& options) {
   ImportRequest request;
   request.file_name = std::filesystem::path(options.model_path).filename().string();
   request.format = parse_model_format(options.format);
+  request.resources = folder_resources(options.model_path);
   auto head = import_head(read_file(options.model_path, request.limits.max_file_bytes), request);
   if (!head) fail(options.model_path, head.error());
   return std::move(*head);

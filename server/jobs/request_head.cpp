@@ -44,7 +44,7 @@ Error about_the_file(Error error) {
 Result<ImportedHead> import_source(const ModelSource& source, const InputFiles& inputs, const Progress& progress) {
   const auto bytes = inputs.read(source.path);
   if (!bytes) return bytes.error();
-  auto head = import_head(*bytes, {source.file_name, std::nullopt, {}}, progress);
+  auto head = import_head(*bytes, {source.file_name, std::nullopt, {}, {}}, progress);
   if (!head) return about_the_file(head.error());
   return head;
 }

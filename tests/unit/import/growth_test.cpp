@@ -11,7 +11,7 @@
 
 #include "core/import/displacements_file.h"
 #include "core/import/feature_points_file.h"
-#include "core/import/zip_archive.h"
+#include "core/import/relative_path.h"
 #include "tests/unit/import/test_files.h"
 
 namespace semblante::test {
@@ -420,7 +420,7 @@ TEST(ImportGrowth, Zip) {
                         return bytes;
                       });
   expect_linear("path in a zip", {.from = 1000, .most = 4'000'000}, lines("", "a/../%41/./"),
-                [](const std::string& path) { (void)import::resolve_in_zip("folder/", path); });
+                [](const std::string& path) { (void)import::resolve_below("folder/", path); });
 }
 
 // ---- JSON files

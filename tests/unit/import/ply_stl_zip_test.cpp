@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/import/zip_archive.h"
+#include "core/import/relative_path.h"
 #include "tests/unit/import/test_files.h"
 
 namespace semblante::test {
@@ -256,14 +256,14 @@ TEST(Stl, BinaryFile_ThatBeginsWithSolid_IsBinary) {
 }
 
 TEST(Zip, Paths_NeverLeaveTheZip) {
-  using import::resolve_in_zip;
-  EXPECT_EQ(resolve_in_zip("", "a.bin"), "a.bin");
-  EXPECT_EQ(resolve_in_zip("head/", "a.bin"), "head/a.bin");
-  EXPECT_EQ(resolve_in_zip("head/", "../textures/skin%20a.png"), "textures/skin a.png");
-  EXPECT_EQ(resolve_in_zip("head/", "./b//c/../a.bin"), "head/b/a.bin");
+  using import::resolve_below;
+  EXPECT_EQ(resolve_below("", "a.bin"), "a.bin");
+  EXPECT_EQ(resolve_below("head/", "a.bin"), "head/a.bin");
+  EXPECT_EQ(resolve_below("head/", "../textures/skin%20a.png"), "textures/skin a.png");
+  EXPECT_EQ(resolve_below("head/", "./b//c/../a.bin"), "head/b/a.bin");
   for (const char* const uri : {"", "/etc/passwd", "../../a", "http://x/a", "file:a", "C:\\a", "a\\b", "%2e%2e/../a",
                                 "%2fetc", "a%00b", "%zz", "%2", "..", "."}) {
-    EXPECT_EQ(resolve_in_zip("", uri), std::nullopt) << uri;
+    EXPECT_EQ(resolve_below("", uri), std::nullopt) << uri;
   }
 }
 
