@@ -1,4 +1,4 @@
-import { mkdtempSync, readFileSync, writeFileSync } from 'node:fs';
+import { mkdirSync, mkdtempSync, readFileSync, renameSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { describe, expect, test } from 'vitest';
@@ -22,6 +22,18 @@ useStudio();
 
 async function importPoints(studio: StudioPage, path: string): Promise<void> {
   await studio.page.setInputFiles('#points-file', path);
+}
+
+/** Writes a GLB as chosen.gltf with its buffer in chosen.bin. */
+function writeGltf(folder: string, glb: Buffer): string[] {
+  const jsonLength = glb.readUInt32LE(12);
+  const document = JSON.parse(glb.subarray(20, 20 + jsonLength).toString()) as { buffers: { uri?: string }[] };
+  document.buffers[0]!.uri = 'chosen.bin';
+  mkdirSync(folder, { recursive: true });
+  const files = [join(folder, 'chosen.gltf'), join(folder, 'chosen.bin')];
+  writeFileSync(files[0]!, JSON.stringify(document));
+  writeFileSync(files[1]!, glb.subarray(20 + jsonLength + 8));
+  return files;
 }
 
 /** Drops a head and its points, places one point by a click, parametrizes; ends on the Animate tab. */
@@ -160,6 +172,26 @@ describe('studio', () => {
     const upload = page.waitForRequest((request) => request.url().includes('/v1/models?'));
     await studio.drop(sampleHead, 'avatar.vrm');
     expect((await upload).headers()['content-type']).toBe('model/gltf-binary');
+    await studio.waitForState('ready');
+    expect(studio.errors).toEqual([]);
+    await studio.close();
+  });
+
+  test('Studio_AGltfWithItsFiles_ChosenOrDroppedAsAFolder_BecomesOneHead', async () => {
+    const studio = await StudioPage.open(browser, server.url);
+    await studio.waitForStage('ready');
+    const folder = join(scratch, 'Ana');
+    const files = writeGltf(folder, readFileSync(sampleHead));
+    writeFileSync(join(folder, 'LICENSE.txt'), 'Everyone may use this head.');
+    await studio.page.setInputFiles('#file', files);
+    await studio.waitForState('ready');
+    await studio.page.locator('#tab-heads').click();
+    await studio.page.locator('.head', { hasText: 'chosen' }).waitFor();
+
+    for (const file of files) renameSync(file, file.replace('chosen', 'dropped'));
+    writeFileSync(join(folder, 'dropped.gltf'), readFileSync(join(folder, 'dropped.gltf'), 'utf8').replace('chosen.bin', 'dropped.bin'));
+    await studio.dropReal(folder);
+    await studio.page.locator('.head', { hasText: 'dropped' }).waitFor();
     await studio.waitForState('ready');
     expect(studio.errors).toEqual([]);
     await studio.close();

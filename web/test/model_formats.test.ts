@@ -1,6 +1,7 @@
 import { readFileSync } from 'node:fs';
 import { expect, test } from 'vitest';
-import { acceptedFiles, anyFormat, mediaTypeOf, modelFormats } from '../src/net/model_formats.ts';
+import { headFileEndings } from '../src/net/head_files.ts';
+import { anyFormat, mediaTypeOf, modelFormats } from '../src/net/model_formats.ts';
 
 test('ModelFormats_AreTheTableOfTheServer', () => {
   const source = readFileSync(new URL('../../core/import/model_formats.h', import.meta.url), 'utf8');
@@ -23,6 +24,6 @@ test('MediaTypeOf_NamesInAnyCase_GoByTheExtension', () => {
 });
 
 test('ModelFormats_ForPeopleAndTheFileChooser_NameEach', () => {
-  expect(acceptedFiles.split(',')).toContain('.vrm');
+  expect(headFileEndings.split(',')).toContain('.vrm');
   expect(anyFormat).toBe('GLB, VRM, glTF, OBJ, PLY, STL or ZIP');
 });

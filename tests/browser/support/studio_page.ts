@@ -107,6 +107,14 @@ export class StudioPage {
       await this.page.dispatchEvent('.studio', type, { dataTransfer: transfer });
   }
 
+  /** Drops a file or folder of the disk on the page. Unlike `drop`, the browser itself reads it: a folder stays a folder. */
+  async dropReal(path: string): Promise<void> {
+    const devtools = await this.page.context().newCDPSession(this.page);
+    const data = { items: [], files: [path], dragOperationsMask: 1 };
+    for (const type of ['dragEnter', 'dragOver', 'drop'] as const) await devtools.send('Input.dispatchDragEvent', { type, x: 700, y: 400, data });
+    await devtools.detach();
+  }
+
   /** The picture of the stage only. */
   async picture(): Promise<Buffer> {
     return this.page.locator('canvas.canvas').screenshot();

@@ -27,9 +27,6 @@ export const formatList = titles.join(', ');
 /** All formats as alternatives: "GLB, VRM, ... or OBJ". */
 export const anyFormat = `${titles.slice(0, -1).join(', ')} or ${titles.at(-1)}`;
 
-/** All file extensions, for the `accept` attribute of a file input. */
-export const acceptedFiles = modelFormats.map(({ extension }) => extension).join(',');
-
 /** The media type by the extension of the file name; the server decides by the content. */
 export function mediaTypeOf(fileName: string): UploadMediaType {
   const name = fileName.toLowerCase();

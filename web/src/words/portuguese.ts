@@ -159,6 +159,7 @@ export const portuguese = {
   'Upload a head': 'Enviar uma cabeça',
   'Choose a head': 'Escolha uma cabeça',
   ' or drop it here': ' ou solte-a aqui',
+  'The files could not be read': 'Os arquivos não puderam ser lidos',
   'Try again': 'Tentar de novo',
   'No heads yet.': 'Nenhuma cabeça ainda.',
   Unnamed: 'Sem nome',

@@ -1,4 +1,5 @@
-import { acceptedFiles, formatList } from '../../net/model_formats.ts';
+import { headFileEndings } from '../../net/head_files.ts';
+import { formatList } from '../../net/model_formats.ts';
 import { adviceFor } from '../../net/problem.ts';
 import type { Model } from '../../net/types.ts';
 import { ask } from '../shared/dialog.ts';
@@ -25,7 +26,7 @@ export class Shelf {
   private readonly list = h('ul', { class: 'heads', 'aria-label': t('Heads') });
   private readonly input = h('input', {
     type: 'file',
-    accept: acceptedFiles,
+    accept: headFileEndings,
     multiple: true,
     class: 'visually-hidden',
     id: 'file',
@@ -40,7 +41,8 @@ export class Shelf {
 
   constructor(private readonly studio: Studio) {
     this.input.addEventListener('change', () => {
-      if (this.input.files) void studio.upload([...this.input.files]);
+      const files = [...(this.input.files ?? [])].map((file) => ({ path: file.name, file }));
+      void studio.upload(files);
       this.input.value = '';
     });
     this.element = h(

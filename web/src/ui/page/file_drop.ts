@@ -1,29 +1,31 @@
+import type { PathFile } from '../../net/head_files.ts';
 import type { ClipPanel } from '../animate/clip_panel.ts';
 import { dropPlace, type DropPlace } from './drop_place.ts';
+import { droppedFiles } from './dropped_files.ts';
 import type { PerformancePanel } from '../live/performance_panel.ts';
 import type { Studio } from '../shared/studio.ts';
 import type { SpeakPanel } from '../speak/speak_panel.ts';
 
-/** Routes a file dropped anywhere on the page to the panel that reads it. */
+/** Routes files and folders dropped anywhere on the page to the panels that read them. */
 export function routeDrops(page: HTMLElement, studio: Studio, performance: PerformancePanel, clip: ClipPanel, speak: SpeakPanel): void {
   acceptDrops(page, (files) => {
-    const going = (place: DropPlace): File[] => files.filter(({ name }) => dropPlace(name, studio.tab.value) === place);
+    const going = (place: DropPlace): PathFile[] => files.filter(({ file }) => dropPlace(file.name, studio.tab.value) === place);
     const [script, file, sound, heads] = [going('stream').at(-1), going('page').at(-1), going('speech').at(-1), going('heads')];
     if (script) {
       studio.tab.set('live');
-      void performance.takeFile(script);
+      void performance.takeFile(script.file);
     } else if (file) {
       studio.tab.set('animate');
-      void clip.takeFile(file);
+      void clip.takeFile(file.file);
     } else if (sound) {
       studio.tab.set('animate');
-      speak.takeRecording(sound);
+      speak.takeRecording(sound.file);
     }
     void studio.upload(heads);
   });
 }
 
-function acceptDrops(page: HTMLElement, take: (files: File[]) => void): void {
+function acceptDrops(page: HTMLElement, take: (files: PathFile[]) => void): void {
   let depth = 0;
   const carriesFiles = (event: DragEvent): boolean => event.dataTransfer?.types.includes('Files') ?? false;
   const set = (value: number): void => {
@@ -43,6 +45,6 @@ function acceptDrops(page: HTMLElement, take: (files: File[]) => void): void {
     if (!carriesFiles(event)) return;
     event.preventDefault();
     set(0);
-    take([...(event.dataTransfer?.files ?? [])]);
+    if (event.dataTransfer) void droppedFiles(event.dataTransfer).then(take);
   });
 }

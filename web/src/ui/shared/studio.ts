@@ -1,4 +1,5 @@
 import type { Api } from '../../net/api.ts';
+import { headUploads, type PathFile } from '../../net/head_files.ts';
 import { followJob } from '../../net/jobs.ts';
 import { ApiError, problemOf } from '../../net/problem.ts';
 import type { FrameWish, Job, Model, ParametrizationOptions, PartRole, Problem, ProposalsResult } from '../../net/types.ts';
@@ -65,8 +66,16 @@ export class Studio {
     else if (model.state === 'parametrized' && tab !== 'live' && tab !== 'fit') this.tab.set('animate');
   }
 
-  async upload(files: Iterable<File>): Promise<void> {
-    for (const file of files) await this.uploadOne(file);
+  /** Uploads the models among these files, each with the files that it refers to. */
+  async upload(files: readonly PathFile[]): Promise<void> {
+    let uploads: File[];
+    try {
+      uploads = await headUploads(files);
+    } catch (error) {
+      this.toasts.problem(t('The files could not be read'), problemOf(error));
+      return;
+    }
+    for (const file of uploads) await this.uploadOne(file);
   }
 
   private async uploadOne(file: File): Promise<void> {
