@@ -9,6 +9,7 @@
 
 #include "core/anatomy/neck.h"
 #include "core/anatomy/point_lookup.h"
+#include "core/anatomy/point_order.h"
 #include "core/anatomy/rim_points.h"
 #include "core/geometry/similarity.h"
 #include "core/propose/face_surface.h"
@@ -189,7 +190,7 @@ class Proposer {
     if (!nearest) return refuse(id, "every vertex of the " + name_of(role) + " already has a point");
     const auto& [vertex, doubt] = *nearest;
     const double off = glm::distance(face_.at(vertex), place);
-    if (off > 0.15 + error) return refuse(id, "the model has no surface at the expected position");
+    if (!is_near(vertex, place, error)) return refuse(id, "the model has no surface at the expected position");
     settle(id, {face_.at(vertex), vertex}, images_[id] ? ProposalMethod::mirror : ProposalMethod::proportion,
            std::max(error, 0.5 * off), doubt);
   }
@@ -213,15 +214,31 @@ class Proposer {
     }
   }
 
-  /// Considers only vertices without a point: the parametrization needs a vertex of its own for each point. Empty if
-  /// the role has none left.
+  /// Whether a vertex may be the point expected at `place`.
+  [[nodiscard]] bool is_near(std::uint32_t vertex, const glm::dvec3& place, double error) const {
+    return glm::distance(face_.at(vertex), place) <= 0.15 + error;
+  }
+
+  /// Considers only vertices without a point: the parametrization needs a vertex of its own for each point. Prefers
+  /// those that keep the order of the points on a face. Empty if the role has none left.
   std::optional<RimVertex> nearest_vertex(std::size_t id, PartRole role, const glm::dvec3& place, double error) {
     const MirrorPlane* const on = is_middle(id) ? &plane_ : nullptr;
     const RimOfPoint rim = rim_of_point(id_of(id));
+    const auto nearest = [&](const FaceSurface::Filter& filter) -> std::optional<RimVertex> {
+      if (rim.opening != nullptr) return rims_.nearest(rim, role, place, error, on, filter);
+      const auto vertex = face_.nearest(role, place, on, filter);
+      return vertex ? std::optional(RimVertex{*vertex, {}}) : std::nullopt;
+    };
     const FaceSurface::Filter is_free = [this](std::uint32_t v) { return !taken_.contains(v); };
-    if (rim.opening != nullptr) return rims_.nearest(rim, role, place, error, on, is_free);
-    const auto vertex = face_.nearest(role, place, on, is_free);
-    return vertex ? std::optional(RimVertex{*vertex, {}}) : std::nullopt;
+    // On a coarse mesh the nearest vertex may be beyond a neighbour: a fold of a lid above the lid's edge. An order
+    // that leaves nothing near the place is that of a misplaced point, which the doctor names.
+    const OrderBounds bounds = order_bounds(id_of(id), settled_);
+    const auto in_order = nearest([&](std::uint32_t v) { return is_free(v) && bounds.contains(face_.at(v)); });
+    if (in_order && is_near(in_order->vertex, place, error)) return in_order;
+    auto out_of_order = nearest(is_free);
+    if (out_of_order && out_of_order->doubt.empty())
+      out_of_order->doubt = "no free vertex near here keeps the order in which the points stand on a face";
+    return out_of_order;
   }
 
   std::optional<std::uint32_t> find_on_shape(std::size_t id, const glm::dvec3& place) const {
