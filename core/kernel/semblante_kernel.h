@@ -76,7 +76,9 @@ typedef struct semblante_lids {
   float ball[SEMBLANTE_BALL_PLACES];
 } semblante_lids;
 
-/* A feature point that follows another one: `share` of the displacement of `leader`. 8 bytes. */
+/* A feature point that follows another one: `share` of the displacement of `leader`, with what the leader itself
+ * follows by an entry that is no choice (one step: that leader's own leader counts without what it follows). 8 bytes.
+ */
 typedef struct semblante_companion {
   uint8_t point, leader; /* FP indices */
   uint8_t is_choice;     /* 1: only times semblante_rig.lip_share, by the player's choice */
@@ -94,7 +96,7 @@ typedef struct semblante_rig {
   float viseme_share;     /* share of the viseme at an FP that an expression also moves (Eq. 5): 0.85 */
   semblante_iris iris[2]; /* left, right */
   semblante_tongue tongue;
-  const semblante_companion* companion; /* companion_count; may be null if that is 0. A leader is nobody's companion. */
+  const semblante_companion* companion; /* companion_count; may be null if that is 0 */
   uint32_t companion_count;
   float lip_share; /* whether FAP 3 alone takes the lower lip along: 0 no, as in the standard; 1 as on a human face */
   semblante_lids lids[2]; /* left, right */

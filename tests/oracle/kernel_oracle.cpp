@@ -60,18 +60,52 @@ Vec3 operator*(const Matrix& m, const Vec3& v) {
 
 namespace {
 
-/// What a companion follows: the whole way of its leader, or only what FAPs add to a set that has the point itself.
-void follow(const semblante_rig& rig, const Pose& sets, const std::array<Vec3, 84>& own, Pose& pose) {
-  const Pose leaders = pose;
-  for (std::uint32_t k = 0; k < rig.companion_count; ++k) {
-    const semblante_companion& c = rig.companion[k];
-    const double share = c.share * (c.is_choice != 0 ? rig.lip_share : 1.0F);
-    for (int i = 0; i < 3; ++i) {
-      if (own[c.point][i] != 0.0) continue;
-      const bool in_set = sets.fp[c.point] != Vec3{};
-      pose.fp[c.point][i] += share * (leaders.fp[c.leader][i] - (in_set ? sets.fp[c.leader][i] : 0.0));
-    }
+/// The companions of a rig, with what the FAPs of a frame say of the points.
+struct Companions {
+  const semblante_rig& rig;
+  const Pose& sets;                 ///< by FAPs 1 and 2 alone
+  const Pose& by_faps;              ///< by all FAPs
+  const std::array<Vec3, 84>& own;  ///< 1 where a FAP moves the point along the axis
+
+  template <typename F>
+  void each(F&& f) const {
+    for (std::uint32_t k = 0; k < rig.companion_count; ++k) f(rig.companion[k]);
   }
+  bool leads(int point) const {
+    bool result = false;
+    each([&](const semblante_companion& c) { result = result || (c.is_choice == 0 && c.leader == point); });
+    return result;
+  }
+  /// The whole way of the leader, or only what FAPs add to a set that has the point itself.
+  Vec3 way(const semblante_companion& c, const Vec3& leader) const {
+    const double share = c.share * (c.is_choice != 0 ? rig.lip_share : 1.0F);
+    const bool in_set = sets.fp[c.point] != Vec3{};
+    Vec3 result{};
+    for (int i = 0; i < 3; ++i) {
+      if (own[c.point][i] == 0.0) result[i] = share * (leader[i] - (in_set ? sets.fp[c.leader][i] : 0.0));
+    }
+    return result;
+  }
+  /// A leader leads by the FAPs and by what it follows itself.
+  Vec3 led(int leader) const {
+    Vec3 result = by_faps.fp[leader];
+    each([&](const semblante_companion& c) {
+      if (c.point != leader || c.is_choice != 0) return;
+      const Vec3 followed = way(c, by_faps.fp[c.leader]);
+      for (int i = 0; i < 3; ++i) result[i] += followed[i];
+    });
+    return result;
+  }
+};
+
+void follow(const semblante_rig& rig, const Pose& sets, const std::array<Vec3, 84>& own, Pose& pose) {
+  const Pose by_faps = pose;
+  const Companions companions{rig, sets, by_faps, own};
+  companions.each([&](const semblante_companion& c) {
+    const bool is_leader = c.is_choice == 0 && companions.leads(c.point);
+    const Vec3 way = companions.way(c, is_leader ? by_faps.fp[c.leader] : companions.led(c.leader));
+    for (int i = 0; i < 3; ++i) pose.fp[c.point][i] += way[i];
+  });
 }
 
 double limited(double value, double low, double high) { return std::max(low, std::min(high, value)); }

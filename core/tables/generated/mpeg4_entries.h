@@ -309,7 +309,7 @@ inline constexpr std::array<ExpressionInfo, 7> expressions = {{
     {"surprise"},
 }};
 
-inline constexpr std::array<Companion, 21> companions = {{
+inline constexpr std::array<Companion, 23> companions = {{
     {9, 0, 1.0, false},
     {10, 0, 0.95, false},
     {11, 0, 0.95, false},
@@ -321,6 +321,8 @@ inline constexpr std::array<Companion, 21> companions = {{
     {35, 0, 0.27, false},
     {34, 45, 0.5, false},
     {35, 46, 0.5, false},
+    {45, 3, 1.0, false},
+    {46, 4, 1.0, false},
     {2, 0, 0.95, true},
     {3, 0, 0.45, true},
     {4, 0, 0.45, true},

@@ -30,16 +30,20 @@ const json& fap_data() {
 
 const json& fap(int number) { return fap_data().at(static_cast<std::size_t>(number - 1)); }
 
-/// The share of a point's displacement that another point takes of it, by the data of the companions.
+/// The share of a point's displacement that another point takes of it, by the data of the companions: of the point as
+/// its leader, and of leaders that follow it themselves.
 float share_of_companion(const std::string& point, const std::string& leader) {
   static const json data = [] {
     std::ifstream file(std::string(SEMBLANTE_SOURCE_DIR) + "/core/tables/data/companions.json");
     return json::parse(file).at("companions");
   }();
+  float share = 0.0F;
   for (const json& entry : data) {
-    if (entry.at("point") == point && entry.at("follows") == leader) return entry.at("share");
+    if (entry.at("point") != point) continue;
+    const std::string follows = entry.at("follows");
+    share += entry.at("share").get<float>() * (follows == leader ? 1.0F : share_of_companion(follows, leader));
   }
-  return 0.0F;
+  return share;
 }
 
 /// A head with eyes, teeth and tongue, in one of its methods of weights, with what the tests ask of it.

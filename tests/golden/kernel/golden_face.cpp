@@ -195,8 +195,8 @@ GoldenFace::GoldenFace() {
   builder.lids(0);
   builder.lids(1);
   builder.tongue();
-  companions = {{9, 0, 0, 0, 0.96875F},  {34, 0, 0, 0, 0.25F},  {34, 45, 0, 0, 0.5F},
-                {26, 14, 0, 0, 0.4375F}, {2, 0, 1, 0, 0.9375F}, {45, 0, 1, 0, 0.4375F}};
+  companions = {{9, 0, 0, 0, 0.96875F}, {34, 0, 0, 0, 0.25F},  {34, 45, 0, 0, 0.5F},  {26, 14, 0, 0, 0.4375F},
+                {45, 3, 0, 0, 1.0F},    {2, 0, 1, 0, 0.9375F}, {45, 0, 1, 0, 0.4375F}};
   rig.companion = companions.data();
   rig.companion_count = static_cast<std::uint32_t>(companions.size());
   rig.viseme = visemes.data();
@@ -268,6 +268,11 @@ std::vector<GoldenFrame> golden_frames() {
   parts("jaw that takes the lower lip along", {{3, 600}, {16, 200}});
   frames.back().jaw_takes_lip = true;
   high("jaw over a viseme that has its companions", {7, 0, 63}, {0, 0, 0, 0}).fap[3] = 500;
+  parts("inner corner of the lips alone: the outer one and the cheek follow", {{6, 200}, {12, 300}});
+  parts("both corners of the lips, each by its own FAPs", {{6, 200}, {12, 300}, {53, 100}, {59, -200}});
+  parts("inner corner of the lips, and a jaw that takes the lip along", {{3, 400}, {6, 200}, {59, 100}});
+  frames.back().jaw_takes_lip = true;
+  high("inner corner over a viseme that has the corners", {7, 0, 63}, {0, 0, 0, 0}).fap[12] = 250;
   parts("head", {{48, 20000}, {49, -30000}, {50, 15000}});
   semblante_frame& all = high("everything at once", {2, 9, 25}, {5, 60, 2, 20});
   for (int n = 3; n <= 68; ++n) set(all, n);

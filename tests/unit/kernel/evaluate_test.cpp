@@ -192,5 +192,20 @@ TEST(Kernel_Companions, OfASetThatMovesThem_FollowOnlyWhatFapsAdd) {
   EXPECT_EQ(y_of(rig.pose(frame), fold), -8.0F);
 }
 
+TEST(Kernel_Companions, OfALeaderThatFollows_FollowItThere) {
+  TestRig rig;
+  const semblante_companion companions[] = {
+      {chin, fold, 0, 0, 0.5F}, {fold, jaw, 0, 0, 0.75F}, {fold, jaw, 1, 0, 4.0F}};
+  rig.rig.companion = companions;
+  rig.rig.companion_count = 3;
+  semblante_frame frame{};
+  frame.fap[3] = 2.0F;  // the jaw down by 16
+  EXPECT_EQ(y_of(rig.pose(frame), fold), -12.0F);
+  EXPECT_EQ(y_of(rig.pose(frame), chin), -6.0F);
+  rig.rig.lip_share = 1.0F;
+  EXPECT_EQ(y_of(rig.pose(frame), fold), -76.0F);
+  EXPECT_EQ(y_of(rig.pose(frame), chin), -6.0F) << "a leader leads without what it follows by choice";
+}
+
 }  // namespace
 }  // namespace semblante::testing

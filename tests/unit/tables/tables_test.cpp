@@ -162,4 +162,18 @@ TEST(Tables_KnownFacts, AreThere) {
   EXPECT_EQ(mpeg4::fap_that_moves(9, 0), nullptr);  // 2.10 has FAP 18 for y only
 }
 
+TEST(Tables_Companions, FollowLeadersOfAtMostOneLeader) {
+  const auto follows = [](int point) {
+    return std::any_of(mpeg4::companions.begin(), mpeg4::companions.end(),
+                       [point](const mpeg4::Companion& c) { return !c.is_choice && c.point == point; });
+  };
+  for (const mpeg4::Companion& c : mpeg4::companions) {
+    EXPECT_FALSE(c.is_choice && follows(c.leader));
+    for (const mpeg4::Companion& of_leader : mpeg4::companions) {
+      if (of_leader.is_choice || of_leader.point != c.leader) continue;
+      EXPECT_FALSE(follows(of_leader.leader)) << "a leader leads with what it follows itself, but not two steps on";
+    }
+  }
+}
+
 }  // namespace
