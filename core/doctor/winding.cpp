@@ -1,20 +1,14 @@
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <utility>
 #include <vector>
 
-#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 
 #include "core/doctor/part_checks.h"
 #include "core/doctor/words.h"
+#include "core/geometry/enclosed_volume.h"
 
 namespace semblante {
 namespace {
-
-/// The enclosed signed volume, relative to the sum of the absolute volumes of its pieces from the centre: 1 for a
-/// closed surface, -1 for one that is inside out, near 0 for a sheet. Below this threshold a part is inside out.
-constexpr double clearly_negative = -0.2;
 
 void find_inconsistent(const Model& model, const Surface& surface, std::span<const Part> parts, const MeshSides& mesh,
                        std::vector<Finding>& out) {
@@ -39,33 +33,21 @@ void find_inconsistent(const Model& model, const Surface& surface, std::span<con
 
 void find_inside_out(const Model& model, const Surface& surface, std::vector<Finding>& out) {
   if (surface.part_count() == 0) return;
-  std::uint32_t largest = 0;
-  for (std::uint32_t p = 1; p < surface.part_count(); ++p)
-    if (surface.members_of(PartId(p)).size() > surface.members_of(PartId(largest)).size()) largest = p;
+  const PartId largest = largest_part(surface);
+  const double share = enclosed_volumes(model, surface)[largest.value()];
+  if (share > inside_out_share) return;
   glm::dvec3 middle(0.0);
-  for (const SurfaceVertexId v : surface.members_of(PartId(largest))) middle += surface.positions[v.value()];
-  middle /= static_cast<double>(surface.members_of(PartId(largest)).size());
-
-  double volume = 0.0;
-  double size = 0.0;
-  for (const Triangle& triangle : model.triangles) {
-    if (surface.part_of[surface.surface_of[triangle[0]].value()] != PartId(largest)) continue;
-    std::array<glm::dvec3, 3> p;
-    for (std::size_t k = 0; k < 3; ++k) p[k] = surface.positions[surface.surface_of[triangle[k]].value()] - middle;
-    const double piece = glm::dot(p[0], glm::cross(p[1], p[2]));
-    volume += piece;
-    size += std::abs(piece);
-  }
-  if (size == 0.0 || volume / size > clearly_negative) return;
+  for (const SurfaceVertexId v : surface.members_of(largest)) middle += surface.positions[v.value()];
+  middle /= static_cast<double>(surface.members_of(largest).size());
   Finding finding;
   finding.code = FindingCode::inside_out;
   finding.severity = Severity::warning;
-  finding.place.part = PartId(largest);
+  finding.place.part = largest;
   finding.place.position = middle;
   finding.words =
       "the largest part is inside out: its triangles face inwards, so its front is invisible and its back shows";
   finding.remedy = "flip the faces, or recalculate the normals to the outside, in the program that made the model";
-  finding.measured = {"volume as a fraction of the sum of its pieces", volume / size, clearly_negative};
+  finding.measured = {"volume as a fraction of the sum of its pieces", share, inside_out_share};
   out.push_back(std::move(finding));
 }
 

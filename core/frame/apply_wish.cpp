@@ -1,3 +1,4 @@
+#include "core/frame/face_tilt.h"
 #include "core/frame/frame_guess.h"
 
 namespace semblante {
@@ -12,6 +13,10 @@ Direction front_of(Direction up) {
 Direction up_of(Direction front) { return axis_of(front) == 1 ? Direction::plus_z : Direction::plus_y; }
 
 }  // namespace
+
+glm::dmat3 turn_upright(const ModelFrame& frame) { return frame.tilt * to_mpeg4(frame.axes); }
+
+double tilt_of(const ModelFrame& frame) { return degrees_of(frame.tilt); }
 
 ModelFrame apply_wish(ModelFrame guess, const FrameWish& wish) {
   if (wish.unit) {
@@ -29,6 +34,7 @@ ModelFrame apply_wish(ModelFrame guess, const FrameWish& wish) {
   }
   guess.axes = axes;
   guess.axes_sure = true;
+  guess.tilt = glm::dmat3(1.0);
   guess.reasons.push_back("The head stands along " + std::string(to_string(axes.up)) + " and faces " +
                           std::string(to_string(axes.front)) + ", as set by the user");
   return guess;

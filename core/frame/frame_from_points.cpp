@@ -3,6 +3,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/frame/face_tilt.h"
 #include "core/frame/frame_guess.h"
 #include "core/frame/human_size.h"
 #include "core/tables/mpeg4.h"
@@ -91,6 +92,12 @@ glm::dvec3 front_of(std::span<const PlacedPoint> points) {
 
 bool is_known(const glm::dvec3& direction) { return direction != glm::dvec3(0.0); }
 
+std::vector<PlacedPoint> turned(std::span<const PlacedPoint> points, const glm::dmat3& rotation) {
+  std::vector<PlacedPoint> result(points.begin(), points.end());
+  for (PlacedPoint& point : result) point.position = rotation * point.position;
+  return result;
+}
+
 void guess_axes(std::span<const PlacedPoint> points, ModelFrame& guess) {
   glm::dvec3 left = left_of(points);
   const glm::dvec3 up = up_of(points);
@@ -124,11 +131,19 @@ void guess_axes(std::span<const PlacedPoint> points, ModelFrame& guess) {
   const auto agrees = [](const glm::dvec3& axis, const glm::dvec3& seen) {
     return !is_known(seen) || glm::dot(axis, seen) > least_agreement;
   };
-  const bool is_sure = score(best) - second > least_lead && agrees(u, up) && agrees(f, front) &&
-                       agrees(glm::cross(u, f), left) &&
+  // A head tilted by more shows it by its proportions, unless left and right contradict the rest.
+  const bool keeps_axes = best == guess.axes;
+  const glm::dmat3 tilt = keeps_axes ? guess.tilt : glm::dmat3(1.0);
+  const auto upright = is_known(left) ? upright_rotation(turned(points, tilt * to_mpeg4(best))) : std::nullopt;
+  const bool is_clear =
+      score(best) - second > least_lead && agrees(u, up) && agrees(f, front) && agrees(glm::cross(u, f), left);
+  const bool is_sure = (is_clear || upright) &&
                        // If no points show the front, exchanged sides would turn the head back to front.
-                       (is_known(front) || best == guess.axes);
-  if (is_sure) guess.axes = best;
+                       (is_known(front) || keeps_axes);
+  if (is_sure) {
+    guess.axes = best;
+    guess.tilt = upright ? *upright * tilt : tilt;
+  }
   guess.axes_sure = is_sure;
   std::string reason = "The feature points stand " + std::string(to_string(best.up)) + " up";
   if (is_known(left))
@@ -136,6 +151,9 @@ void guess_axes(std::span<const PlacedPoint> points, ModelFrame& guess) {
   reason += ", the face towards " + std::string(to_string(best.front));
   if (!is_sure) reason += ", but so unclearly that it might be another way";
   guess.reasons.push_back(std::move(reason));
+  if (is_sure && guess.tilt != glm::dmat3(1.0))
+    guess.reasons.push_back("The face is tilted by " + std::to_string(std::lround(tilt_of(guess))) +
+                            " degrees from these axes, by its points and the proportions of faces");
 }
 
 /// Pupils, or the middles of the eyes' corners.

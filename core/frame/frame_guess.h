@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
 #include "core/frame/frame.h"
@@ -21,9 +22,17 @@ struct ModelFrame {
   LengthUnit unit = LengthUnit::metre;
   bool unit_sure = false;
   std::vector<std::string> reasons;  ///< sentences for people: what was seen, and what follows from it
+  /// The rotation that turns the head upright after `axes`, of a head that is tilted in its file. Only points show it.
+  glm::dmat3 tilt{1.0};
 
   bool operator==(const ModelFrame&) const = default;
 };
+
+/// MPEG-4 position = matrix * file position.
+glm::dmat3 turn_upright(const ModelFrame& frame);
+
+/// The angle of `tilt`, degrees.
+double tilt_of(const ModelFrame& frame);
 
 /// The user's settings; empty members are guessed.
 struct FrameWish {
@@ -35,7 +44,8 @@ struct FrameWish {
 };
 
 /// `guess` with the user's settings applied. If only one of up and front is set, the other is the guess's if valid,
-/// else that of the smallest rotation: a head with up +Z has front -Y.
+/// else that of the smallest rotation: a head with up +Z has front -Y. Axes set by the user are the head's own: it has
+/// no tilt then.
 ModelFrame apply_wish(ModelFrame guess, const FrameWish& wish);
 
 /// A marked point with its position in the file.
@@ -51,7 +61,8 @@ struct PlacedPoint {
 ModelFrame guess_frame(const Model& model, const Surface& surface);
 
 /// Guesses from marked points, which are more reliable: left from pairs, up from eyes above mouth above chin, front
-/// from nose before ears, the unit from the eye distance. Members that the points do not determine keep the value in
+/// from nose before ears, the tilt from the proportions of a face (face_tilt.h), the unit from the eye distance. A face
+/// that `before` turns upright already keeps its tilt. Members that the points do not determine keep the value in
 /// `before`. If left and right contradict the other evidence, they are ignored, with a reason.
 ModelFrame guess_frame(std::span<const PlacedPoint> points, const ModelFrame& before);
 

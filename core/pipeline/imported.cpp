@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "core/pipeline/outward.h"
+
 namespace semblante {
 
 Result<ImportedHead> import_head(std::span<const std::uint8_t> bytes, const ImportRequest& request,
@@ -15,6 +17,9 @@ Result<ImportedHead> import_head(std::span<const std::uint8_t> bytes, const Impo
   head.model = std::move(*model);
   head.warnings.file = std::move(head.model.warnings);
   head.model.warnings.clear();
+  if (turn_outward(head.model))
+    head.warnings.file.emplace_back(
+        "the model was inside out, as one that was mirrored: its triangles faced inwards; all are turned over");
   return head;
 }
 

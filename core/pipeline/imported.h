@@ -13,7 +13,7 @@
 
 namespace semblante {
 
-/// Stage 1: the content of the file, in the file's own axes.
+/// Stage 1: the content of the file, in the file's own axes, with triangles that face outwards.
 struct ImportedHead {
   Model model;
   HeadWarnings warnings;

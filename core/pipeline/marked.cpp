@@ -1,7 +1,11 @@
 #include "core/pipeline/marked.h"
 
+#include <cmath>
+#include <string>
 #include <utility>
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
 #include "core/doctor/marked_points.h"
@@ -27,9 +31,25 @@ Status place(MarkedHead& head, const MarkRequest& request) {
   return Unit{};
 }
 
+/// Whether the model is much more than a head, so that a tilted head in it is the posture of a body.
+bool has_body(const MarkedHead& head) {
+  const auto size_of = [](const auto& positions, const auto& place) {
+    glm::dvec3 low(1e300);
+    glm::dvec3 high(-1e300);
+    for (const auto& position : positions) {
+      low = glm::min(low, glm::dvec3(place(position)));
+      high = glm::max(high, glm::dvec3(place(position)));
+    }
+    return glm::distance(low, high);
+  };
+  constexpr double most_faces = 6.0;
+  return size_of(head.model.positions, [](const glm::vec3& p) { return p; }) >
+         most_faces * size_of(head.points, [](const FeaturePoint& p) { return p.position; });
+}
+
 /// Guesses the axes and unit of the head again, with its feature points.
 ModelFrame frame_by_points(const MarkedHead& head) {
-  const glm::dmat3 to_file = glm::transpose(to_mpeg4(head.frame.axes));
+  const glm::dmat3 to_file = glm::transpose(turn_upright(head.frame));
   std::vector<PlacedPoint> in_file;
   for (const FeaturePoint& point : head.points) in_file.push_back({point.id, to_file * glm::dvec3(point.position)});
   return apply_wish(guess_frame(in_file, head.frame), head.frame_wish);
@@ -48,16 +68,26 @@ Result<MarkedHead> mark_head(StandingHead standing, MarkRequest request, const P
   if (auto told = report_progress(progress, 0.0, "feature points"); !told) return told.error();
   MarkedHead head{std::move(standing), {}, std::move(request.roles_by_user), request.fapu_by_user, {}, std::nullopt};
   if (auto placed = place(head, request); !placed) return placed.error();
-  const Axes before = head.frame.axes;
+  const ModelFrame before = head.frame;
   head.frame = frame_by_points(head);
-  if (head.frame.axes == before) {
+  const double tilt = tilt_of(head.frame);
+  const bool is_of_body = tilt > 0.0 && has_body(head);
+  if (is_of_body) head.frame.tilt = glm::dmat3(1.0);
+  const auto warn_of_body = [&] {
+    if (is_of_body)
+      head.warnings.stance.push_back("the head is tilted by " + std::to_string(std::lround(tilt)) +
+                                     " degrees on its body; its points move along the axes of the body");
+  };
+  if (turn_upright(head.frame) == turn_upright(before)) {
     head.warnings.stance = stance_warnings(head.frame);
+    warn_of_body();
     return head;
   }
-  turn(head, turn_between(before, head.frame.axes));
+  turn(head, turn_between(before, head.frame));
   turn_points(request.points, *head.turn);
-  head.warnings.stance = {"the feature points show that the head " + stance_in_words(head.frame.axes) +
+  head.warnings.stance = {"the feature points show that the head " + stance_in_words(head.frame) +
                           "; it is turned upright"};
+  warn_of_body();
   if (auto placed = place(head, request); !placed) return placed.error();
   return head;
 }

@@ -1,6 +1,7 @@
 #include "core/pipeline/standing.h"
 
 #include <cassert>
+#include <cmath>
 #include <utility>
 
 #include <glm/matrix.hpp>
@@ -32,8 +33,7 @@ Result<StandingHead> stand_head(ImportedHead head, const StandingRequest& reques
   }
   standing.frame = find_frame(standing.model, request, standing.frame_wish, standing.surface);
   standing.warnings.stance = stance_warnings(standing.frame);
-  if (standing.frame.axes != Axes{}) {
-    const glm::dmat3 turn = to_mpeg4(standing.frame.axes);
+  if (const glm::dmat3 turn = turn_upright(standing.frame); turn != glm::dmat3(1.0)) {
     change_axes(standing.model, turn);
     standing.to_mpeg4 = turn * standing.to_mpeg4;
     standing.surface = build_surface(standing.model);
@@ -43,7 +43,9 @@ Result<StandingHead> stand_head(ImportedHead head, const StandingRequest& reques
   return standing;
 }
 
-glm::dmat3 turn_between(const Axes& from, const Axes& to) { return to_mpeg4(to) * glm::transpose(to_mpeg4(from)); }
+glm::dmat3 turn_between(const ModelFrame& from, const ModelFrame& to) {
+  return turn_upright(to) * glm::transpose(turn_upright(from));
+}
 
 void turn_points(std::vector<MarkedPoint>& points, const glm::dmat3& turn) {
   for (MarkedPoint& point : points) {
@@ -51,14 +53,17 @@ void turn_points(std::vector<MarkedPoint>& points, const glm::dmat3& turn) {
   }
 }
 
-std::string stance_in_words(const Axes& axes) {
-  return "stands along " + std::string(to_string(axes.up)) + " and faces " + std::string(to_string(axes.front)) +
-         " in its file";
+std::string stance_in_words(const ModelFrame& frame) {
+  const std::string stands = "stands along " + std::string(to_string(frame.axes.up)) + " and faces " +
+                             std::string(to_string(frame.axes.front));
+  if (frame.tilt == glm::dmat3(1.0)) return stands + " in its file";
+  const std::string tilted = "is tilted by " + std::to_string(std::lround(tilt_of(frame))) + " degrees in its file";
+  return frame.axes == Axes{} ? tilted : stands + " and " + tilted;
 }
 
 std::vector<std::string> stance_warnings(const ModelFrame& frame) {
-  if (frame.axes != Axes{})
-    return {"the head " + stance_in_words(frame.axes) + (frame.axes_sure ? "" : ", as far as its shape shows") +
+  if (turn_upright(frame) != glm::dmat3(1.0))
+    return {"the head " + stance_in_words(frame) + (frame.axes_sure ? "" : ", as far as its shape shows") +
             "; it is turned upright"};
   if (!frame.axes_sure) return {"the axes of the head are uncertain; it keeps the axes of its file"};
   return {};

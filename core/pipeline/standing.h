@@ -31,8 +31,8 @@ struct StandingRequest {
 /// Adds a warning when the head was rotated, or when its axes are uncertain (then it is not). Error: `cancelled`.
 Result<StandingHead> stand_head(ImportedHead head, const StandingRequest& request, const Progress& progress = {});
 
-/// The rotation from a model with the axes `from` to one with the axes `to`.
-glm::dmat3 turn_between(const Axes& from, const Axes& to);
+/// The rotation from a model that `from` turns upright to one that `to` turns upright.
+glm::dmat3 turn_between(const ModelFrame& from, const ModelFrame& to);
 
 /// Rotates the positions of marked points with their model.
 void turn_points(std::vector<MarkedPoint>& points, const glm::dmat3& turn);
@@ -40,7 +40,7 @@ void turn_points(std::vector<MarkedPoint>& points, const glm::dmat3& turn);
 /// The warnings about the axes of a head: rotated, or uncertain; empty: upright in its file.
 std::vector<std::string> stance_warnings(const ModelFrame& frame);
 
-/// "stands along +Z and faces -Y in its file".
-std::string stance_in_words(const Axes& axes);
+/// "stands along +Z and faces -Y in its file", "is tilted by 20 degrees in its file".
+std::string stance_in_words(const ModelFrame& frame);
 
 }  // namespace semblante

@@ -11,22 +11,6 @@
 namespace semblante {
 namespace {
 
-/// The mean of each point over the references that have it.
-Places mean_places(std::span<const ReferenceHead> references) {
-  Places mean;
-  for (std::size_t id = 0; id < feature_point_count; ++id) {
-    glm::dvec3 sum{0.0};
-    double count = 0.0;
-    for (const ReferenceHead& head : references) {
-      if (!head.points[id]) continue;
-      sum += *head.points[id];
-      count += 1.0;
-    }
-    if (count > 0.0) mean[id] = sum / count;
-  }
-  return mean;
-}
-
 /// The median of each coordinate, robust against an outlier reference.
 glm::dvec3 median(const std::vector<glm::dvec3>& places) {
   glm::dvec3 result{0.0};
@@ -87,18 +71,6 @@ std::array<std::optional<Guess>, feature_point_count> guess_by_proportions(std::
     guesses[id] = Guess{place, std::hypot(votes[id].deviation / count, std::sqrt(squares / count))};
   }
   return guesses;
-}
-
-std::optional<Similarity> fit_to_references(const Places& known, std::span<const ReferenceHead> references) {
-  const Places mean = mean_places(references);
-  std::vector<glm::dvec3> from;
-  std::vector<glm::dvec3> to;
-  for (std::size_t id = 0; id < feature_point_count; ++id) {
-    if (!known[id] || !mean[id]) continue;
-    from.push_back(*known[id]);
-    to.push_back(*mean[id]);
-  }
-  return fit_similarity(from, to);
 }
 
 }  // namespace semblante

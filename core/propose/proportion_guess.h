@@ -6,8 +6,8 @@
 
 #include <glm/vec3.hpp>
 
+#include "core/anatomy/reference_heads.h"
 #include "core/geometry/similarity.h"
-#include "core/propose/reference_heads.h"
 #include "core/propose/relations.h"
 #include "core/types/feature_point_id.h"
 
@@ -28,9 +28,5 @@ struct Guess {
 /// median over the references. Empty for points without a reference. Positions in an upright frame of unit ES0.
 std::array<std::optional<Guess>, feature_point_count> guess_by_proportions(std::span<const KnownPlace> known,
                                                                            std::span<const ReferenceHead> references);
-
-/// The similarity from `known` to an upright frame with ES0 as unit, by the mean proportions of the references. Empty
-/// if the points do not determine it.
-std::optional<Similarity> fit_to_references(const Places& known, std::span<const ReferenceHead> references);
 
 }  // namespace semblante

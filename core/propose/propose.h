@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/anatomy/reference_heads.h"
 #include "core/geometry/surface.h"
-#include "core/propose/reference_heads.h"
 #include "core/types/feature_points.h"
 #include "core/types/neck_joints.h"
 #include "core/types/result.h"

@@ -37,8 +37,8 @@ Result<ImportJob::Outcome> ImportJob::run(const Request& request, const InputFil
   outcome.warnings = head->warnings.all();
   outcome.frame = head->frame;
   // The store turns the positions that were marked in the earlier orientation.
-  if (request.model.frame && request.model.frame->axes != head->frame.axes)
-    outcome.turn = rows_of(turn_between(request.model.frame->axes, head->frame.axes));
+  if (request.model.frame && turn_upright(*request.model.frame) != turn_upright(head->frame))
+    outcome.turn = rows_of(turn_between(*request.model.frame, head->frame));
   const auto parts = describe_parts(head->model, head->surface, {}, {});
   outcome.parts = records_of(parts);
   outcome.part_count = static_cast<std::uint32_t>(parts.size());

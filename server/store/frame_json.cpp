@@ -16,13 +16,19 @@ T required(const std::optional<T>& value) {
 }  // namespace
 
 nlohmann::json frame_to_json(const ModelFrame& frame, const FrameWish& wish) {
-  return {{"unit", to_string(frame.unit)},
-          {"metres_per_unit", metres_per(frame.unit)},
-          {"axes", {{"up", to_string(frame.axes.up)}, {"front", to_string(frame.axes.front)}}},
-          {"guessed", !wish.unit || !wish.has_axes()},
-          {"by_user", {{"unit", wish.unit.has_value()}, {"axes", wish.has_axes()}}},
-          {"sure", {{"unit", frame.unit_sure}, {"axes", frame.axes_sure}}},
-          {"reasons", frame.reasons}};
+  nlohmann::json json = {{"unit", to_string(frame.unit)},
+                         {"metres_per_unit", metres_per(frame.unit)},
+                         {"axes", {{"up", to_string(frame.axes.up)}, {"front", to_string(frame.axes.front)}}},
+                         {"guessed", !wish.unit || !wish.has_axes()},
+                         {"by_user", {{"unit", wish.unit.has_value()}, {"axes", wish.has_axes()}}},
+                         {"sure", {{"unit", frame.unit_sure}, {"axes", frame.axes_sure}}},
+                         {"reasons", frame.reasons}};
+  if (frame.tilt != glm::dmat3(1.0)) {
+    json["tilt"] = nlohmann::json::array();
+    for (int row = 0; row < 3; ++row)
+      json["tilt"].push_back({frame.tilt[0][row], frame.tilt[1][row], frame.tilt[2][row]});
+  }
+  return json;
 }
 
 ModelFrame frame_from_json(const nlohmann::json& json) {
@@ -33,6 +39,14 @@ ModelFrame frame_from_json(const nlohmann::json& json) {
   frame.unit_sure = json.at("sure").at("unit");
   frame.axes_sure = json.at("sure").at("axes");
   frame.reasons = json.at("reasons").get<std::vector<std::string>>();
+  if (json.contains("tilt")) {
+    for (int row = 0; row < 3; ++row)
+      for (int column = 0; column < 3; ++column)
+        json["tilt"]
+            .at(static_cast<std::size_t>(row))
+            .at(static_cast<std::size_t>(column))
+            .get_to(frame.tilt[column][row]);
+  }
   return frame;
 }
 

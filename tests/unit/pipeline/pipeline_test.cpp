@@ -1,11 +1,18 @@
 // The stages from a file's bytes to a head with its levels, each with what it says and how it is cancelled.
+#include <algorithm>
+#include <utility>
+
+#include <glm/gtc/quaternion.hpp>
 #include <glm/matrix.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/expressions/kernel_rig.h"
+#include "core/geometry/enclosed_volume.h"
 #include "core/import/axes.h"
 #include "core/import/model_formats.h"
 #include "core/pipeline/levelled.h"
+#include "core/pipeline/outward.h"
 #include "core/pipeline/points_file.h"
 #include "tests/support/meshes.h"
 #include "tests/support/sample_head_model.h"
@@ -64,6 +71,50 @@ TEST(ImportHead, WarningsOfTheFile_AreKeptOnce) {
   ASSERT_TRUE(head) << head.error().message;
   EXPECT_THAT(head->warnings.file, ElementsAre(HasSubstr("none.mtl")));
   EXPECT_THAT(head->model.warnings, IsEmpty());
+}
+
+void reverse_winding(Model& model) {
+  for (auto* const triangles : {&model.triangles, &model.uv_triangles, &model.normal_triangles})
+    for (Triangle& triangle : *triangles) std::swap(triangle[1], triangle[2]);
+}
+
+TEST(TurnOutward, AHeadThatIsInsideOut_IsTurnedOver_WithItsNormals) {
+  const Model right = testing::sample_head_model();
+  Model model = right;
+  EXPECT_FALSE(turn_outward(model));
+  EXPECT_EQ(model.triangles, right.triangles);
+  reverse_winding(model);
+  EXPECT_TRUE(turn_outward(model));
+  EXPECT_EQ(model.triangles, right.triangles);
+  EXPECT_EQ(model.normal_triangles, right.normal_triangles);
+  EXPECT_EQ(model.normals, right.normals) << "they pointed outwards";
+  reverse_winding(model);
+  for (glm::vec3& normal : model.normals) normal = -normal;
+  EXPECT_TRUE(turn_outward(model));
+  EXPECT_EQ(model.normals, right.normals);
+}
+
+TEST(TurnOutward, AMirroredHead_FacesOutwards) {
+  Model model = testing::sample_head_model();
+  for (glm::vec3& position : model.positions) position.x = -position.x;
+  for (glm::vec3& normal : model.normals) normal.x = -normal.x;
+  const std::vector<glm::vec3> normals = model.normals;
+  EXPECT_TRUE(turn_outward(model));
+  EXPECT_FALSE(turn_outward(model));
+  EXPECT_EQ(model.normals, normals);
+}
+
+TEST(TurnOutward, PartsThatDisagree_AndSheets_AreLeft) {
+  Model model = testing::sample_head_model();
+  const Surface surface = build_surface(model);
+  const PartId skin = largest_part(surface);
+  for (Triangle& triangle : model.triangles)
+    if (surface.part_of[surface.surface_of[triangle[0]].value()] == skin) std::swap(triangle[1], triangle[2]);
+  EXPECT_FALSE(turn_outward(model)) << "the eyes are the right way out";
+  Model sheet = testing::make_grid(4, 4);
+  EXPECT_FALSE(turn_outward(sheet));
+  reverse_winding(sheet);
+  EXPECT_FALSE(turn_outward(sheet));
 }
 
 TEST(StandHead, AlongZ_IsTurnedUpright_AndSaysSo) {
@@ -142,6 +193,73 @@ TEST(MarkHead, PointThatCannotBePlaced_StopsOrIsAFinding) {
     EXPECT_EQ(head->refused.size(), 1U);
     EXPECT_EQ(head->points.size(), marks.size() - 1);
   }
+}
+
+/// The sample head, rotated in its file, in `joy` with an open jaw; positions in the axes of the unrotated file.
+std::vector<glm::vec3> joy_of_tilted(const glm::dmat3& in_file, const FrameWish& wish = {}) {
+  ImportedHead imported{testing::sample_head_model(), {}};
+  change_axes(imported.model, in_file);
+  FeaturePointsFile file;
+  file.points = sample_marks({});
+  turn_points(file.points, in_file);
+  auto marked = mark_by_file(std::move(imported), std::move(file), wish);
+  EXPECT_TRUE(marked) << marked.error().message;
+  auto head = rig_head(std::move(*marked), {WeightMethod::smooth});
+  EXPECT_TRUE(head) << head.error().message;
+  const KernelRig rig = make_kernel_rig(head->rig);
+  const semblante_rig view = rig.view();
+  semblante_frame frame{};
+  frame.expression1 = 1;
+  frame.intensity1 = 63;
+  frame.fap[3] = 400;
+  semblante_pose pose;
+  semblante_evaluate(&view, &frame, &pose);
+  std::vector<glm::vec3> positions(head->model.positions.size());
+  const semblante_face face = make_kernel_face(head->rig, &head->model.positions[0].x);
+  semblante_deform(&face, &pose, &positions[0].x);
+  const glm::dmat3 back = glm::transpose(in_file) * glm::transpose(head->to_mpeg4);
+  for (glm::vec3& position : positions) position = glm::vec3(back * glm::dvec3(position));
+  return positions;
+}
+
+TEST(MarkHead, AHeadTiltedInItsFile_MovesAsTheUprightOne) {
+  const std::vector<glm::vec3> rest = testing::sample_head_model().positions;
+  const std::vector<glm::vec3> upright = joy_of_tilted(glm::dmat3(1.0));
+  float farthest = 0.0F;
+  for (std::size_t v = 0; v < rest.size(); ++v) farthest = std::max(farthest, glm::distance(upright[v], rest[v]));
+  const auto error = [&](const std::vector<glm::vec3>& moved) {
+    float worst = 0.0F;
+    for (std::size_t v = 0; v < rest.size(); ++v) worst = std::max(worst, glm::distance(moved[v], upright[v]));
+    return worst / farthest;
+  };
+  const double angle = glm::radians(20.0);
+  const FrameWish as_in_file{{}, Direction::plus_y, Direction::plus_z};
+  const glm::dvec3 x(1, 0, 0);
+  const glm::dvec3 y(0, 1, 0);
+  const glm::dvec3 z(0, 0, 1);
+  EXPECT_LT(error(joy_of_tilted(glm::mat3_cast(glm::angleAxis(angle, z)))), 0.01F);
+  EXPECT_LT(error(joy_of_tilted(glm::mat3_cast(glm::angleAxis(angle, y)))), 0.01F);
+  // How far a face nods is known only as far as faces agree in it: 3 degrees here, of 20.
+  const float nodding = error(joy_of_tilted(glm::mat3_cast(glm::angleAxis(angle, x)), as_in_file));
+  EXPECT_LT(error(joy_of_tilted(glm::mat3_cast(glm::angleAxis(angle, x)))), 0.3F * nodding);
+  EXPECT_LT(error(joy_of_tilted(glm::mat3_cast(glm::angleAxis(-angle, x)))), 0.3F * nodding);
+  // Where the user says that the axes of the file are the head's, it moves along them.
+  EXPECT_GT(error(joy_of_tilted(glm::mat3_cast(glm::angleAxis(angle, z)), as_in_file)), 0.2F);
+  EXPECT_GT(nodding, 0.3F);
+}
+
+TEST(MarkHead, AHeadTiltedInItsFile_IsSaid) {
+  const glm::dmat3 in_file = glm::mat3_cast(glm::angleAxis(glm::radians(20.0), glm::dvec3(0, 0, 1)));
+  ImportedHead imported{testing::sample_head_model(), {}};
+  change_axes(imported.model, in_file);
+  FeaturePointsFile file;
+  file.points = sample_marks({});
+  turn_points(file.points, in_file);
+  const auto head = mark_by_file(std::move(imported), file);
+  ASSERT_TRUE(head);
+  ASSERT_TRUE(head->turn);
+  EXPECT_THAT(head->warnings.stance, ElementsAre("the feature points show that the head is tilted by 20 degrees in its "
+                                                 "file; it is turned upright"));
 }
 
 TEST(MarkByFile, AxesFromBothFileAndUser_AreRefused) {

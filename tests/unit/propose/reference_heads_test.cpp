@@ -1,4 +1,4 @@
-#include "core/propose/reference_heads.h"
+#include "core/anatomy/reference_heads.h"
 
 #include <algorithm>
 #include <cmath>

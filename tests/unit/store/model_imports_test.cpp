@@ -10,7 +10,10 @@ namespace {
 TEST_F(StoreTest, Frame_OutlivesReopening_AndAnOldStoreHasNone) {
   import(add("m"));
   EXPECT_EQ(store_->model("m")->frame, std::nullopt) << "facts without a frame are those of an older program";
-  const ModelFrame frame{{Direction::plus_z, Direction::minus_y}, true, LengthUnit::inch, false, {"a reason"}};
+  // The columns of the tilt: a rotation about Z whose sine and cosine are no decimals of a few digits.
+  const glm::dmat3 tilt(0.8775825618903728, 0.479425538604203, 0.0, -0.479425538604203, 0.8775825618903728, 0.0, 0.0,
+                        0.0, 1.0);
+  const ModelFrame frame{{Direction::plus_z, Direction::minus_y}, true, LengthUnit::inch, false, {"a reason"}, tilt};
   const FrameWish wish{std::nullopt, Direction::plus_z, std::nullopt};
   const auto revision = store_->model("m")->revision;
   EXPECT_FALSE(store_->edit_frame("m", wish, frame, std::nullopt, revision + 1));

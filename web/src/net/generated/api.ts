@@ -1427,6 +1427,24 @@ export interface components {
             };
             /** @description What was seen, in words */
             reasons: string[];
+            /** @description Of a head that is tilted in its file: the rows of the rotation that turns it upright after `axes`. Absent for a head along the axes of its file, and where the user sets the axes */
+            tilt?: [
+                [
+                    number,
+                    number,
+                    number
+                ][],
+                [
+                    number,
+                    number,
+                    number
+                ][],
+                [
+                    number,
+                    number,
+                    number
+                ][]
+            ];
         };
         /** @description What the user says; null takes it back to the guess. One of up and front is enough: the other follows by the least turn */
         FrameWish: {

@@ -1,4 +1,4 @@
-#include "core/propose/reference_heads.h"
+#include "core/anatomy/reference_heads.h"
 
 #include <cassert>
 #include <cstddef>
@@ -103,6 +103,34 @@ std::vector<ReferenceHead> expand() {
 std::span<const ReferenceHead> reference_heads() {
   static const std::vector<ReferenceHead> heads = expand();
   return heads;
+}
+
+std::array<std::optional<glm::dvec3>, feature_point_count> mean_of(std::span<const ReferenceHead> references) {
+  std::array<std::optional<glm::dvec3>, feature_point_count> mean;
+  for (std::size_t id = 0; id < feature_point_count; ++id) {
+    glm::dvec3 sum{0.0};
+    double count = 0.0;
+    for (const ReferenceHead& head : references) {
+      if (!head.points[id]) continue;
+      sum += *head.points[id];
+      count += 1.0;
+    }
+    if (count > 0.0) mean[id] = sum / count;
+  }
+  return mean;
+}
+
+std::optional<Similarity> fit_to_references(const std::array<std::optional<glm::dvec3>, feature_point_count>& known,
+                                            std::span<const ReferenceHead> references) {
+  const auto mean = mean_of(references);
+  std::vector<glm::dvec3> from;
+  std::vector<glm::dvec3> to;
+  for (std::size_t id = 0; id < feature_point_count; ++id) {
+    if (!known[id] || !mean[id]) continue;
+    from.push_back(*known[id]);
+    to.push_back(*mean[id]);
+  }
+  return fit_similarity(from, to);
 }
 
 }  // namespace semblante

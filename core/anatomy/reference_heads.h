@@ -7,6 +7,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "core/geometry/similarity.h"
 #include "core/types/feature_point_id.h"
 
 namespace semblante {
@@ -21,5 +22,13 @@ struct ReferenceHead {
 
 /// The reference heads. README.md lists their sources.
 std::span<const ReferenceHead> reference_heads();
+
+/// The similarity from the known points of a face, in any axes, to those of a reference head, by the mean of
+/// `references`. Empty if the points do not determine it.
+std::optional<Similarity> fit_to_references(const std::array<std::optional<glm::dvec3>, feature_point_count>& known,
+                                            std::span<const ReferenceHead> references = reference_heads());
+
+/// The mean of each point over the references that have it.
+std::array<std::optional<glm::dvec3>, feature_point_count> mean_of(std::span<const ReferenceHead> references);
 
 }  // namespace semblante

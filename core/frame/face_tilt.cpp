@@ -1,0 +1,80 @@
+#include "core/frame/face_tilt.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/matrix.hpp>
+
+#include "core/anatomy/reference_heads.h"
+
+namespace semblante {
+namespace {
+
+using Places = std::array<std::optional<glm::dvec3>, feature_point_count>;
+
+constexpr std::size_t least_points = 8;
+constexpr double most_misfit = 0.25;  ///< root mean square distance to the references, in the face's spread
+constexpr double least_tilt = 6.0;    ///< degrees; a smaller one may be the marks' inaccuracy
+constexpr double least_nod = 10.0;    ///< degrees; of a head that is tilted to a side also, least_tilt
+
+/// Points whose place on a head is about the same for everybody: no hair, no tongue, no teeth, no pivot.
+bool is_of_the_face(FeaturePointId id) {
+  const int group = group_of(id);
+  const int number = number_of(id);
+  return group != 6 && group != 7 && group != 11 && !(group == 9 && number >= 8 && number <= 11);
+}
+
+/// The smallest rotation from one unit vector to another, which is not its opposite.
+glm::dmat3 rotation_between(const glm::dvec3& from, const glm::dvec3& to) {
+  const glm::dvec3 axis = glm::cross(from, to);
+  return glm::mat3_cast(glm::normalize(glm::dquat(1.0 + glm::dot(from, to), axis.x, axis.y, axis.z)));
+}
+
+/// Relative to the spread of the face about its middle.
+double misfit(const Places& places, const Similarity& fit) {
+  const Places mean = mean_of(reference_heads());
+  double squares = 0.0;
+  double spread = 0.0;
+  for (std::size_t id = 0; id < feature_point_count; ++id) {
+    if (!places[id] || !mean[id]) continue;
+    const glm::dvec3 error = fit(*places[id]) - *mean[id];
+    squares += glm::dot(error, error);
+    const glm::dvec3 arm = *mean[id] - fit.to;
+    spread += glm::dot(arm, arm);
+  }
+  return std::sqrt(squares / spread);
+}
+
+}  // namespace
+
+double degrees_of(const glm::dmat3& rotation) {
+  const double cosine = 0.5 * (rotation[0][0] + rotation[1][1] + rotation[2][2] - 1.0);
+  return std::acos(std::clamp(cosine, -1.0, 1.0)) * 180.0 / std::numbers::pi;
+}
+
+std::optional<glm::dmat3> upright_rotation(std::span<const PlacedPoint> points) {
+  Places places;
+  std::size_t count = 0;
+  for (const PlacedPoint& point : points) {
+    if (!is_of_the_face(point.id)) continue;
+    places[point.id.value()] = point.position;
+    ++count;
+  }
+  if (count < least_points) return std::nullopt;
+  const auto fit = fit_to_references(places);
+  if (!fit || misfit(places, *fit) > most_misfit || degrees_of(fit->rotation) > 90.0) return std::nullopt;
+  // fit->rotation = nod * straight, where `straight` is the part without pitch.
+  const glm::dvec3 left = glm::transpose(fit->rotation)[0];
+  const glm::dmat3 straight = rotation_between(left, {1.0, 0.0, 0.0});
+  const glm::dmat3 nod = fit->rotation * glm::transpose(straight);
+  const bool is_tilted = degrees_of(straight) >= least_tilt;
+  const bool nods = degrees_of(nod) >= (is_tilted ? least_tilt : least_nod);
+  if (!is_tilted && !nods) return std::nullopt;
+  return nods ? fit->rotation : straight;
+}
+
+}  // namespace semblante
