@@ -23,7 +23,7 @@ struct ImportRequest {
   std::string file_name;              ///< the name of the uploaded file: a hint of the format
   std::optional<ModelFormat> format;  ///< set by the user; if empty, detected by content and name
   ImportLimits limits;
-  import::ResourceReader resources;  ///< the model's other files; if empty, the file must be complete alone
+  import::ResourceReader resources = {};  ///< the model's other files; if empty, the file must be complete alone
 };
 
 /// Errors: those of import_model; `unsupported` for an unknown file format; `cancelled`.
