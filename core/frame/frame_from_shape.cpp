@@ -106,7 +106,9 @@ class ShapeGuess {
   }
 
   void find_front() {
+    constexpr double least_crowding = 0.06;
     const int axis = 3 - *across_ - axis_of(*up_);
+    const double crowded = crowding(model_, surface_, skin_id(), skin(), axis);
     if (eyes_) {
       // Compare with the head at the height of the eyes: other parts of a body may be behind or in front of them.
       const int height = axis_of(*up_);
@@ -120,12 +122,15 @@ class ShapeGuess {
       }
       const double ahead = eyes_->middle[axis] - 0.5 * (low + high);
       if (!(high > low) || std::abs(ahead) < 0.1 * (high - low)) return;
-      front_ = direction_along(axis, ahead);
-      say("The eyes are near the " + name(*front_) + " side of the head");
-      return;
+      if (eyes_->by_name || crowded * ahead >= 0.0 || std::abs(crowded) < least_crowding) {
+        front_ = direction_along(axis, ahead);
+        say("The eyes are near the " + name(*front_) + " side of the head");
+        return;
+      }
+      say("The balls are near the " + name(direction_along(axis, ahead)) +
+          " side of the head, away from the densest vertices: they are hardly eyes");
+      eyes_.reset();
     }
-    constexpr double least_crowding = 0.06;
-    const double crowded = crowding(model_, surface_, skin_id(), skin(), axis);
     if (std::abs(crowded) < least_crowding) return;
     front_ = direction_along(axis, crowded);
     say("The vertices are densest towards " + name(*front_) + ", as in a face");
@@ -134,7 +139,8 @@ class ShapeGuess {
   void guess_unit() {
     if (eyes_) {
       if (const auto by_size = unit_of_eye_separation(eyes_->separation)) {
-        take_unit(by_size->unit, by_size->is_sure,
+        // Balls without a name are known to be eyes by where they lie on the head.
+        take_unit(by_size->unit, by_size->is_sure && (eyes_->by_name || (across_ && up_ && front_)),
                   "The eyes are " + std::to_string(eyes_->separation) + " apart, which is a face's if the unit is " +
                       std::string(to_string(by_size->unit)));
         return;

@@ -160,5 +160,16 @@ TEST(FrameFromShape, ACube_IsTakenAsItLies) {
   EXPECT_TRUE(guess_frame(cube, build_surface(cube)).axes_sure) << "glTF has a rule";
 }
 
+TEST(FrameFromShape, BallsThatNothingShowsToBeEyes_LeaveTheUnitUnsure) {
+  Model model = skull(20.0F, -20.0F, true);
+  const ModelFrame balls = guess_frame(model, build_surface(model));
+  EXPECT_FALSE(balls.axes_sure);
+  EXPECT_EQ(balls.unit, LengthUnit::centimetre);
+  EXPECT_FALSE(balls.unit_sure);
+  for (Primitive& primitive : model.primitives)
+    if (primitive.name == "ball") primitive.name = "eye";
+  EXPECT_TRUE(guess_frame(model, build_surface(model)).unit_sure) << "by their names they are";
+}
+
 }  // namespace
 }  // namespace semblante::test
