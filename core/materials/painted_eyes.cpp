@@ -21,6 +21,8 @@ namespace {
 constexpr float iris_of_ball = 0.49F;             ///< radius of the iris by that of the eyeball, of adults
 constexpr float widest_span = 4.0F;               ///< radii of the iris that the texture shows at most
 constexpr float widest_disc = 1.4F;               ///< radii of the iris; the white of an open eye is wider
+constexpr float widest_round = 2.0F;              ///< of a disc as high as wide: half closed lids hide some of an iris
+constexpr float least_roundness = 0.85F;          ///< height by width, or the reverse
 constexpr glm::vec2 black_place(0.5F, 0.5F);      ///< the pupil
 constexpr glm::vec2 white_place(0.004F, 0.004F);  ///< a corner of the texture
 
@@ -178,6 +180,7 @@ class EyePainter {
   void fit_discs() {
     struct Extent {
       float farthest = 0.0F;
+      glm::vec2 half{0.0F};  ///< greatest distance from the axis to a side, and up or down
       float least = std::numeric_limits<float>::infinity();
       float most = -std::numeric_limits<float>::infinity();
     };
@@ -189,14 +192,17 @@ class EyePainter {
         const EyePlace place = place_of(*eyes_[*side], model_.positions[v]);
         Extent& extent = extents[*side];
         extent.farthest = std::max(extent.farthest, glm::length(place.across));
+        extent.half = glm::max(extent.half, glm::abs(place.across));
         extent.least = std::min(extent.least, place.along);
         extent.most = std::max(extent.most, place.along);
       }
     }
     for (std::size_t e = 0; e < 2; ++e) {
       const Extent& extent = extents[e];
+      const bool is_round =
+          std::min(extent.half.x, extent.half.y) >= least_roundness * std::max(extent.half.x, extent.half.y);
       if (extent.farthest > 0.0F && extent.most - extent.least < 0.5F * extent.farthest &&
-          extent.farthest < widest_disc * eyes_[e]->iris_radius) {
+          extent.farthest < (is_round ? widest_round : widest_disc) * eyes_[e]->iris_radius) {
         eyes_[e]->iris_radius = extent.farthest;
       }
     }

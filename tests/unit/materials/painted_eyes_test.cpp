@@ -135,13 +135,14 @@ TEST(PaintedEyes, PupilAndIris_AreRound_OnACoarseBall_AroundTheGaze) {
   }
 }
 
-TEST(PaintedEyes, AFlatDiscAboutThePupil_IsAllIris) {
+/// Diamonds of four triangles about the pupils, 12 behind which are the pivots.
+Eyes flat_eyes(float half_width, float half_height) {
   Eyes eyes;
-  // Squares of four triangles, 12 behind whose middle are the pivots.
   Model discs;
   for (const float x : {30.0F, -30.0F}) {
     const auto first = static_cast<std::uint32_t>(discs.positions.size());
-    for (const glm::vec2& at : {glm::vec2(0.0F), {7.0F, 0.0F}, {0.0F, 7.0F}, {-7.0F, 0.0F}, {0.0F, -7.0F}})
+    for (const glm::vec2& at :
+         {glm::vec2(0.0F), {half_width, 0.0F}, {0.0F, half_height}, {-half_width, 0.0F}, {0.0F, -half_height}})
       discs.positions.emplace_back(x + at.x, at.y, ball);
     for (std::uint32_t k = 0; k < 4; ++k) discs.triangles.push_back({first, first + 1 + k, first + 1 + (k + 1) % 4});
   }
@@ -152,14 +153,30 @@ TEST(PaintedEyes, AFlatDiscAboutThePupil_IsAllIris) {
   eyes.parts[0].role = PartRole::left_eye;
   eyes.parts[1].role = PartRole::right_eye;
   eyes.paint();
-  for (const float r : {3.5F, 4.9F}) {
-    const auto seen = brightness_at(eyes, r, {0.0F, 0.0F, 1.0F});
-    ASSERT_GT(seen.size(), 40U);
-    for (const double value : seen) EXPECT_LT(value, 170.0) << r;
+  return eyes;
+}
+
+TEST(PaintedEyes, AFlatDiscAboutThePupil_IsAllIris) {
+  // The lids of the second one are half closed: by them the iris has a radius of 6.
+  for (const float half : {7.0F, 11.0F}) {
+    const Eyes eyes = flat_eyes(half, half);
+    for (const float r : {3.5F, 4.9F}) {
+      const auto seen = brightness_at(eyes, r, {0.0F, 0.0F, 1.0F});
+      ASSERT_GT(seen.size(), 40U);
+      for (const double value : seen) EXPECT_LT(value, 170.0) << r;
+    }
+    const Pixels pixels(eyes.model.images.back());
+    const glm::vec2 near_corner(0.5F + 0.5F * 0.94F / 1.02F, 0.5F);
+    EXPECT_LT(pixels.at(near_corner), 170.0) << half;
   }
+}
+
+TEST(PaintedEyes, AFlatEyeThatIsWiderThanHigh_HasWhiteBesideTheIris) {
+  const Eyes eyes = flat_eyes(11.0F, 7.0F);
   const Pixels pixels(eyes.model.images.back());
-  const glm::vec2 near_corner(0.5F + 0.5F * 6.6F / (1.02F * 7.0F), 0.5F);
-  EXPECT_LT(pixels.at(near_corner), 170.0);
+  double brightest = 0.0;
+  for (const glm::vec2& uv : eyes.model.uvs) brightest = std::max(brightest, pixels.at(uv));
+  EXPECT_GT(brightest, 220.0);
 }
 
 TEST(PaintedEyes, TheBackIsWhite) {
