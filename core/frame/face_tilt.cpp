@@ -10,6 +10,7 @@
 #include <glm/matrix.hpp>
 
 #include "core/anatomy/reference_heads.h"
+#include "core/tables/mpeg4.h"
 
 namespace semblante {
 namespace {
@@ -17,9 +18,12 @@ namespace {
 using Places = std::array<std::optional<glm::dvec3>, feature_point_count>;
 
 constexpr std::size_t least_points = 8;
-constexpr double most_misfit = 0.25;  ///< root mean square distance to the references, in the face's spread
-constexpr double least_tilt = 6.0;    ///< degrees; a smaller one may be the marks' inaccuracy
-constexpr double least_nod = 10.0;    ///< degrees; of a head that is tilted to a side also, least_tilt
+constexpr std::size_t least_pairs = 3;  ///< of points marked on both sides
+/// Root mean square distance to the references, in the face's spread; of faces of human proportions at most 0.13.
+constexpr double most_misfit = 0.25;
+constexpr double most_misfit_of_nod = 0.16;  ///< pitch shows by proportions alone
+constexpr double least_tilt = 6.0;           ///< degrees; a smaller one may be the marks' inaccuracy
+constexpr double least_nod = 12.0;           ///< degrees; of a head that is tilted to a side also, least_tilt
 
 /// Points whose place on a head is about the same for everybody: no hair, no tongue, no teeth, no pivot.
 bool is_of_the_face(FeaturePointId id) {
@@ -58,21 +62,30 @@ double degrees_of(const glm::dmat3& rotation) {
 
 std::optional<glm::dmat3> upright_rotation(std::span<const PlacedPoint> points) {
   Places places;
-  std::size_t count = 0;
   for (const PlacedPoint& point : points) {
-    if (!is_of_the_face(point.id)) continue;
-    places[point.id.value()] = point.position;
-    ++count;
+    if (is_of_the_face(point.id)) places[point.id.value()] = point.position;
   }
-  if (count < least_points) return std::nullopt;
+  // Points of one side alone show yaw only as far as faces are alike.
+  std::size_t count = 0;
+  std::size_t pairs = 0;
+  for (std::size_t id = 0; id < feature_point_count; ++id) {
+    const std::uint8_t mirror = mpeg4::feature_points[id].mirror;
+    if (!places[mirror]) places[id].reset();
+    if (!places[id]) continue;
+    ++count;
+    if (mirror > id) ++pairs;
+  }
+  if (count < least_points || pairs < least_pairs) return std::nullopt;
   const auto fit = fit_to_references(places);
-  if (!fit || misfit(places, *fit) > most_misfit || degrees_of(fit->rotation) > 90.0) return std::nullopt;
+  if (!fit || degrees_of(fit->rotation) > 90.0) return std::nullopt;
+  const double off = misfit(places, *fit);
+  if (off > most_misfit) return std::nullopt;
   // fit->rotation = nod * straight, where `straight` is the part without pitch.
   const glm::dvec3 left = glm::transpose(fit->rotation)[0];
   const glm::dmat3 straight = rotation_between(left, {1.0, 0.0, 0.0});
   const glm::dmat3 nod = fit->rotation * glm::transpose(straight);
   const bool is_tilted = degrees_of(straight) >= least_tilt;
-  const bool nods = degrees_of(nod) >= (is_tilted ? least_tilt : least_nod);
+  const bool nods = off < most_misfit_of_nod && degrees_of(nod) >= (is_tilted ? least_tilt : least_nod);
   if (!is_tilted && !nods) return std::nullopt;
   return nods ? fit->rotation : straight;
 }
