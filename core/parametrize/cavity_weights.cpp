@@ -38,11 +38,11 @@ constexpr struct {
 } flesh;
 /// Sweeps end when no weight changes by more; the start is close to the solution. What they leave depends on the order
 /// of the vertices, so that it is the asymmetry of a symmetric head.
-constexpr double least_change = 3e-4;
+constexpr float least_change = 3e-4F;
 constexpr int most_sweeps = 200;
 /// Steps go beyond each equation's own solution (successive over-relaxation), from the rim inwards: that converges in
 /// about a fifth of the sweeps.
-constexpr double over_relaxation = 1.6;
+constexpr float over_relaxation = 1.6F;
 
 /// The unknown rows and the equations between them.
 class Diffusion {
@@ -58,7 +58,7 @@ class Diffusion {
 
   void solve() {
     for (int sweep = 0; sweep < most_sweeps; ++sweep) {
-      double change = 0.0;
+      float change = 0.0F;
       for (const std::uint32_t member : order_) change = std::max(change, relax(member));
       if (change < least_change) break;
     }
@@ -73,14 +73,14 @@ class Diffusion {
   }
 
  private:
-  /// Neighbouring columns of a row, which registers hold together.
-  using Block = glm::dvec4;
+  /// Neighbouring columns of a row, which a register holds together. Single precision: the sweeps end far above it.
+  using Block = glm::vec4;
   static constexpr std::size_t columns = 4;
 
   struct Link {
     std::uint32_t row;  ///< of rows_
     double length;
-    double weight;  ///< 1 / length^2
+    float weight;  ///< 1 / length^2
   };
 
   /// Rows 0 to #members - 1 are the members'; those of the rim follow.
@@ -96,7 +96,7 @@ class Diffusion {
           if (row - cavity_.members.size() == rim_.size()) rim_.push_back(step.to);
         }
         const double length = std::max(step.length / unit_, shortest_link);
-        links_.push_back({row, length, 1.0 / (length * length)});
+        links_.push_back({row, length, static_cast<float>(1.0 / (length * length))});
       }
       link_offsets_.push_back(static_cast<std::uint32_t>(links_.size()));
     }
@@ -170,14 +170,15 @@ class Diffusion {
   }
 
   void read_row(const WeightRow& row, std::size_t at, std::vector<Block>& rows) const {
-    for (std::size_t c = 0; c < ids_.size(); ++c) rows[at * blocks_ + c / columns][c % columns] = row[ids_[c]];
+    for (std::size_t c = 0; c < ids_.size(); ++c)
+      rows[at * blocks_ + c / columns][c % columns] = static_cast<float>(row[ids_[c]]);
   }
 
   /// The rim's rows, and in each member that of the rim's vertex it is nearest to, faded by the distance.
   void start(const std::function<WeightRow(SurfaceVertexId)>& row_of) {
     const std::size_t members = cavity_.members.size();
-    rows_.assign((members + rim_.size()) * blocks_, Block(0.0));
-    own_.assign(members * blocks_, Block(0.0));
+    rows_.assign((members + rim_.size()) * blocks_, Block(0.0F));
+    own_.assign(members * blocks_, Block(0.0F));
     sums_.resize(blocks_);
     for (std::size_t r = 0; r < rim_.size(); ++r) read_row(row_of(rim_[r]), members + r, rows_);
     for (std::size_t m = 0; m < members; ++m) read_row(own_rows_[m], m, own_);
@@ -208,19 +209,19 @@ class Diffusion {
     const Fade& fade = cavity_.is_mouth ? mouth_fade : socket_fade;
     pull_.resize(members);
     for (const std::uint32_t m : order_) {
-      pull_[m] = smooth_step(0.0, fade.rim, distance_[m]) / (4.0 * fade.length * fade.length);
-      const double rim_share = std::exp(-std::max(0.0, distance_[m] - fade.rim / 2.0) / fade.length);
+      pull_[m] = static_cast<float>(smooth_step(0.0, fade.rim, distance_[m]) / (4.0 * fade.length * fade.length));
+      const auto rim_share = static_cast<float>(std::exp(-std::max(0.0, distance_[m] - fade.rim / 2.0) / fade.length));
       for (std::size_t b = 0; b < blocks_; ++b) {
-        rows_[m * blocks_ + b] = rim_share * rows_[from[m] * blocks_ + b] + (1.0 - rim_share) * own_[m * blocks_ + b];
+        rows_[m * blocks_ + b] = rim_share * rows_[from[m] * blocks_ + b] + (1.0F - rim_share) * own_[m * blocks_ + b];
       }
     }
   }
 
   /// Solves the equation of one member for its own row; the greatest change of a weight.
-  double relax(std::uint32_t m) {
+  float relax(std::uint32_t m) {
     const auto links = links_of(m);
-    const double pull = static_cast<double>(links.size()) * pull_[m];
-    double all = pull;
+    const float pull = static_cast<float>(links.size()) * pull_[m];
+    float all = pull;
     for (std::size_t b = 0; b < blocks_; ++b) sums_[b] = pull * own_[m * blocks_ + b];
     for (const Link& link : links) {
       all += link.weight;
@@ -228,8 +229,8 @@ class Diffusion {
       for (std::size_t b = 0; b < blocks_; ++b) sums_[b] += link.weight * other[b];
     }
     Block* const row = &rows_[m * blocks_];
-    Block change(0.0);
-    const double share = 1.0 / all;
+    Block change(0.0F);
+    const float share = 1.0F / all;
     for (std::size_t b = 0; b < blocks_; ++b) {
       const Block step = over_relaxation * (sums_[b] * share - row[b]);
       change = glm::max(change, glm::abs(step));
@@ -254,7 +255,7 @@ class Diffusion {
   std::size_t blocks_ = 0;            ///< of a row
   std::vector<WeightRow> own_rows_;   ///< of the members
   std::vector<double> distance_;      ///< of the members from the rim
-  std::vector<double> pull_;          ///< of the members, towards their own rows
+  std::vector<float> pull_;           ///< of the members, towards their own rows
   std::vector<Block> rows_;           ///< members and rim
   std::vector<Block> own_;            ///< own_rows_, by columns
   std::vector<std::uint32_t> order_;  ///< members, from the rim inwards
