@@ -1,5 +1,5 @@
 /* libsemblante: everything that a client does between bytes and vertices. Face packages, streams, playing, publishing,
- * performances, takes and bridges.
+ * performances, takes, bridges and listeners.
  *
  *   semblante_package package = {0};
  *   package.size = sizeof(package);
@@ -542,6 +542,39 @@ semblante_result semblante_take_get_warning(const semblante_take* take, uint32_t
  * more; `text` may be null to ask. INVALID_ARGUMENT, TOO_LARGE, OUT_OF_MEMORY. */
 semblante_result semblante_take_write(uint32_t format, const semblante_timed_frame* frames, uint32_t count, double rate,
                                       char* text, size_t* size, semblante_error* error);
+
+/* ---- listeners: the sound of speech -> visemes, while it goes on
+ * ------------------------------------------------------------------------------------- */
+
+typedef struct semblante_listener semblante_listener;
+
+/* From a moment of the sound to the last sample that is heard for it, ms. */
+#define SEMBLANTE_LISTENER_DELAY_MS 42.5
+
+typedef struct semblante_listener_options {
+  uint32_t size;
+  uint32_t sample_rate; /* Hz, 8000 to 192000 */
+} semblante_listener_options;
+
+/* What is heard in 10 ms. Visemes are those of FAP 1, and of Oculus, in their order: semblante_frame_from_oculus makes
+ * a frame of the weights. */
+typedef struct semblante_heard {
+  uint32_t size;
+  float level;                           /* dB of full scale */
+  double time;                           /* the middle of the 10 ms: ms after the first sample */
+  float weights[SEMBLANTE_VISEME_COUNT]; /* what a mouth shows: without flicker, vowels opened by loudness; 1 in all */
+  float probability[SEMBLANTE_VISEME_COUNT]; /* as it was heard; 1 in all */
+} semblante_heard;
+
+/* A listener knows no language. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
+semblante_result semblante_listener_create(const semblante_listener_options* options, semblante_listener** listener,
+                                           semblante_error* error);
+void semblante_listener_destroy(semblante_listener* listener);
+/* Takes samples of one channel, of full scale 1, until the next 10 ms have been heard; *taken of them, so that the rest
+ * is for the next call. Values that are not finite are taken as 0. UNAVAILABLE: all were taken, and nothing new was
+ * heard; `heard` is not written. INVALID_ARGUMENT: a null, or a `size` that is too small. */
+semblante_result semblante_listener_push(semblante_listener* listener, const float* samples, uint32_t count,
+                                         uint32_t* taken, semblante_heard* heard);
 
 #ifdef __cplusplus
 }
