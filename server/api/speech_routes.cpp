@@ -243,7 +243,7 @@ http::Response create(Context& context, http::Request& request, std::string wish
   return created(speech);
 }
 
-/// What somebody else has said: a timeline, with its sound or without, or a sound with its text.
+/// What somebody else has said: a timeline, with its sound or without, or a sound, with its text or without.
 http::Response create_from_form(Context& context, http::Request& request) {
   const MappedFile mapped(request.body_file->path());
   const auto parts =
@@ -271,9 +271,7 @@ http::Response create_from_form(Context& context, http::Request& request) {
   wish.sound_reader = context.config.sound_reader;
   if (aligned) {
     if (wish.format) refuse("invalid-field", "is of a timeline, which the form does not have", "/format");
-    if (wish.text.empty())
-      refuse("invalid-field", "is missing: a recording without a timeline needs the text that is said in it", "/text");
-    refuse_without_voice(context);
+    if (!wish.text.empty()) refuse_without_voice(context);
   }
   // The fingerprint is not that of the raw body, because a retry has another boundary.
   const auto fingerprint = sha256_hex(sha256_hex(options.body) + sha256_hex(wish.timeline) + sha256_hex(wish.sound));

@@ -124,13 +124,13 @@ Result<voice::Speech> read_said(const SayCommand& options) {
 
 void run(SayCommand& options) {
   if (options.list_voices) return print_voices(options);
+  const bool heard = !options.sound.empty() && options.text.empty();
+  if (heard && options.request.language.empty()) options.request.language = "und";
   if (options.request.language.empty()) throw CommandFailure(CommandFailure::bad_input, "say: --language is required");
   if (options.out.empty() && options.audio.empty() && options.captions.empty())
     throw CommandFailure(CommandFailure::bad_input, "say: give --out, --audio or --captions: nothing would be written");
-  if (options.timeline.empty() && options.text.empty())
-    throw CommandFailure(CommandFailure::bad_input, options.sound.empty()
-                                                        ? "say: give a text, or --timeline"
-                                                        : "say: --sound: give the text that is said in it");
+  if (options.timeline.empty() && options.sound.empty() && options.text.empty())
+    throw CommandFailure(CommandFailure::bad_input, "say: give a text, --timeline or --sound");
   const bool said = !options.timeline.empty() || !options.sound.empty();
   const auto speech = said ? read_said(options) : speak(options);
   if (!speech) fail("say", speech.error());
@@ -159,7 +159,7 @@ void add_say_command(CLI::App& app, const std::string& sample_head) {
       "voice makes the sound: "
       "semblante-voice-espeak, or any program that speaks its protocol (server/voice/README.md).");
   command->add_option("TEXT", options->text,
-                      "What to say; - reads it from standard input. With --timeline it may be left out");
+                      "What to say; - reads it from standard input. With --timeline or --sound it may be left out");
   command->add_option("--language", options->request.language, "Language of the text; mouths are made for pt-BR and en")
       ->envname("SEMBLANTE_LANGUAGE");
   command->add_option("--voice", options->request.voice, "Name of a voice that the voice program knows")
@@ -183,8 +183,9 @@ void add_say_command(CLI::App& app, const std::string& sample_head) {
   command
       ->add_option(
           "--sound", options->sound,
-          "A recording of the text in place of a voice: WAV, or what semblante-sound beside this program reads "
-          "(FLAC, Ogg with Vorbis or Opus, MP3). The voice says when in it is said what")
+          "A recording in place of a voice: WAV, or what semblante-sound beside this program reads (FLAC, Ogg with "
+          "Vorbis or Opus, MP3). With its text the voice says when in it is said what; without, visemes are heard in "
+          "it, in any language, without captions")
       ->excludes(timeline)
       ->envname("SEMBLANTE_SOUND");
   command->add_option("--audio-in", options->audio_in, "The sound of --timeline, a file as of --sound")

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/speech/alignment.h"
+#include "core/speech/hearing.h"
 #include "core/speech/loudness.h"
 #include "core/speech/marked_ssml.h"
 #include "core/speech/marked_text.h"
@@ -127,28 +128,39 @@ Result<Speech> make_speech(const TimelineRequest& request) {
 
 Result<Speech> make_speech(const VoiceProgram& voice, const SaidRequest& request) {
   if (const auto checked = check_language(request.language); !checked) return checked.error();
-  auto marked = marked_text_of(request.text);
-  if (!marked) return marked.error();
-  const auto sound = read_sound(request.sound_reader, request.sound);
+  MarkedText marked;
+  if (!request.text.empty()) {
+    auto read = marked_text_of(request.text);
+    if (!read) return read.error();
+    marked = *std::move(read);
+  }
+  auto sound = read_sound(request.sound_reader, request.sound);
   if (!sound) return in("audio", sound.error());
-  VoiceRequest wish;
-  wish.text = marked->text;
-  wish.language = request.language;
-  const auto model = speak(voice, wish);
-  if (!model) return model.error();
-  auto aligned = align(*model, *sound);
-  if (!aligned) return in(aligned.error().code == ErrorCode::mismatch ? "text" : "audio", aligned.error());
-  add_whole(*marked, request.expression, request.intensity);
   Speech speech;
-  speech.text = std::move(marked->text);
-  speech.utterance = std::move(aligned->utterance);
-  speech.utterance.voice = "recording";
-  if (!has_sound_table(request.language)) speech.warnings.push_back(no_table_warning(request.language));
-  if (aligned->distance > doubtful_distance)
-    speech.warnings.emplace_back("the sound hardly resembles the text: is this what is said?");
+  if (request.text.empty()) {
+    speech.utterance = hear(*std::move(sound));
+    speech.sounds = sounds_of_visemes;
+    speech.warnings.emplace_back("nobody gave the text: mouths are as they are heard, and there are no captions");
+  } else {
+    VoiceRequest wish;
+    wish.text = marked.text;
+    wish.language = request.language;
+    const auto model = speak(voice, wish);
+    if (!model) return model.error();
+    auto aligned = align(*model, *sound);
+    if (!aligned) return in(aligned.error().code == ErrorCode::mismatch ? "text" : "audio", aligned.error());
+    speech.utterance = std::move(aligned->utterance);
+    speech.utterance.voice = "recording";
+    speech.sounds = request.language;
+    if (!has_sound_table(request.language)) speech.warnings.push_back(no_table_warning(request.language));
+    if (aligned->distance > doubtful_distance)
+      speech.warnings.emplace_back("the sound hardly resembles the text: is this what is said?");
+  }
+  add_whole(marked, request.expression, request.intensity);
+  speech.text = std::move(marked.text);
   SpeechOptions face = request.face;
-  face.language = speech.sounds = request.language;
-  speech.performance = speech_performance(speech.utterance, marked->emotions, face);
+  face.language = speech.sounds;
+  speech.performance = speech_performance(speech.utterance, marked.emotions, face);
   return speech;
 }
 

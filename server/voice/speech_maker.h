@@ -60,7 +60,8 @@ struct TimelineRequest : SaidRequest {  ///< without a text: what the timeline k
 Result<Speech> make_speech(const TimelineRequest& request);
 
 /// The face of a recording of the text, on its clock: `voice` speaks the text too, and what it says when is carried
-/// over (core/speech/alignment.h). Errors: `where` begins with "audio", "text", "language" or "voice".
+/// over (core/speech/alignment.h). Without a text no voice is started: the visemes are heard in the sound
+/// (core/speech/hearing.h), and there are no words. Errors: `where` begins with "audio", "text", "language" or "voice".
 Result<Speech> make_speech(const VoiceProgram& voice, const SaidRequest& request);
 
 }  // namespace semblante::voice

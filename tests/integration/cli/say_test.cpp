@@ -55,7 +55,7 @@ TEST(Say, TimelineOfAnotherVoice_NeedsNoVoice) {
     EXPECT_NE(refused.exit_code, 0) << reason;
     EXPECT_NE(refused.err.find(reason), std::string::npos) << refused.err;
   };
-  fails({}, "give a text, or --timeline");
+  fails({}, "give a text, --timeline or --sound");
   fails({"--timeline", work.write("bad.tsv", "0.0\tX\n0.1\tQ\n")}, "line 2");
   fails({"--timeline", hi, "--audio", work.path("b.wav")}, "--audio-in");
   fails({"--timeline", hi, "--audio-in", hi}, "audio: is no ");
@@ -76,10 +76,22 @@ TEST(Say, ARecordingOfTheText_IsSaidOnItsClock) {
   const auto script = read_performance(read_text(work.path("a.json")));
   ASSERT_TRUE(script.ok());
   EXPECT_TRUE(Performance::compile(*script).ok());
+}
 
-  const auto refused =
-      run_semblante({"say", "--sound", work.path("said.wav"), "--language", "en", "--out", work.path("b.json")});
-  EXPECT_NE(refused.err.find("give the text that is said in it"), std::string::npos) << refused.err;
+TEST(Say, ARecordingWithoutItsText_IsHeard) {
+  const Workspace work;
+  ASSERT_EQ(run_semblante(
+                {"say", "Mamma mia!", "--language", "en", "--voice-program", beeps, "--audio", work.path("said.wav")})
+                .exit_code,
+            0);
+  const auto done = run_semblante({"say", "--sound", work.path("said.wav"), "--emotion", "joy", "--voice-program",
+                                   "/nonexistent", "--out", work.path("a.json"), "--captions", work.path("a.vtt")});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_NE(done.err.find("no captions"), std::string::npos) << done.err;
+  EXPECT_EQ(read_text(work.path("a.vtt")), "WEBVTT\n");
+  const auto script = read_performance(read_text(work.path("a.json")));
+  ASSERT_TRUE(script.ok());
+  EXPECT_TRUE(Performance::compile(*script).ok());
 }
 
 TEST(Say, ListsVoices) {

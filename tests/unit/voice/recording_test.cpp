@@ -7,6 +7,7 @@
 #include <numbers>
 #include <string>
 #include <tuple>
+#include <variant>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -15,6 +16,9 @@
 #include <sndfile.h>
 #endif
 
+#include "core/speech/loudness.h"
+#include "core/speech/segments.h"
+#include "core/speech/sounds.h"
 #include "server/voice/speech_maker.h"
 #include "server/voice/voice_process.h"
 
@@ -136,6 +140,68 @@ TEST(RecordingOfSpeech, WithItsText_IsSaidWhenItIsSaid) {
   }
 }
 
+/// The viseme that is said at each 10 ms: -1 where the mouth is that of its neighbours.
+std::vector<int> visemes_of(const Utterance& said, const char* language) {
+  std::vector<int> visemes;
+  const Loudness loudness(said);
+  for (const Segment& segment : segments_of(said, sound_table(language), loudness))
+    while (5.0 + 10.0 * static_cast<double>(visemes.size()) < segment.end)
+      visemes.push_back(segment.sound.kind == SoundKind::throat ? -1 : segment.sound.viseme);
+  return visemes;
+}
+
+TEST(RecordingOfSpeech, WithoutItsText_IsHeard) {
+  for (const auto& [text, language, voice] : readings) {
+    VoiceRequest wish;
+    wish.text = text;
+    wish.language = language;
+    wish.voice = voice;
+    const auto truth = speak(own_voice, wish);
+    ASSERT_TRUE(truth) << truth.error().message;
+    const std::string file = wav(*truth);
+    SaidRequest request;
+    request.sound = file;
+    request.language = "und";
+    request.expression = 1;
+    const auto speech = make_speech({}, request);  // no voice is needed
+    ASSERT_TRUE(speech) << speech.error().message;
+    EXPECT_EQ(speech->text, "");
+    EXPECT_TRUE(speech->utterance.words.empty());
+    EXPECT_EQ(speech->utterance.samples, truth->samples);
+    EXPECT_EQ(speech->warnings.size(), 1U);
+    EXPECT_TRUE(std::any_of(speech->performance.cues.begin(), speech->performance.cues.end(), [](const Cue& cue) {
+      const auto* const expression = std::get_if<ExpressionTarget>(&cue.target);
+      return expression != nullptr && expression->expression == 1;
+    })) << "the emotion of the request is shown";
+    const auto heard = visemes_of(speech->utterance, "en"), said = visemes_of(*truth, language);
+    double right = 0.0, lips = 0.0, closed = 0.0, frames = 0.0;
+    for (std::size_t n = 0; n < std::min(heard.size(), said.size()); ++n) {
+      if (said[n] < 0) continue;
+      frames += 1.0;
+      right += heard[n] == said[n] ? 1.0 : 0.0;
+      if (said[n] != sounds::p_b_m) continue;
+      lips += 1.0;
+      closed += heard[n] == sounds::p_b_m ? 1.0 : 0.0;
+    }
+    EXPECT_GT(right / frames, 0.65) << text;  // by chance: 0.07
+    EXPECT_GT(closed / lips, 0.5) << text;
+  }
+}
+
+TEST(RecordingOfSpeech, OfSilence_HasAMouthAtRest) {
+  Utterance silence;
+  silence.sample_rate = 16'000;
+  silence.samples.resize(32'000);
+  const std::string file = wav(silence);
+  SaidRequest request;
+  request.sound = file;
+  request.language = "und";
+  const auto speech = make_speech({}, request);
+  ASSERT_TRUE(speech) << speech.error().message;
+  ASSERT_EQ(speech->utterance.phonemes.size(), 1U);
+  EXPECT_EQ(speech->utterance.phonemes.front().symbol, "");
+}
+
 TEST(RecordingOfSpeech, ErrorsSayWhere) {
   Utterance silence;
   silence.sample_rate = 8'000;
@@ -146,7 +212,7 @@ TEST(RecordingOfSpeech, ErrorsSayWhere) {
   request.language = "en";
   request.text = "Hello.";
   EXPECT_EQ(make_speech(own_voice, request).error().where, "audio");
-  request.text = "";
+  request.text = std::string(1, '\x01');
   EXPECT_EQ(make_speech(own_voice, request).error().where, "text");
   request.text = "Hello.";
   request.sound = "what is this?";
