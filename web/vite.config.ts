@@ -7,10 +7,11 @@ const here = (path: string): string => fileURLToPath(new URL(path, import.meta.u
 const library = process.env['SEMBLANTE_WASM'] ?? here('../build/wasm');
 const draco = here('node_modules/three/examples/jsm/libs/draco/gltf/');
 
-/** Files that are fetched at run time under a fixed name: the client library, all of it and its smaller part, and the Draco decoder. */
+/** Files that are fetched at run time under a fixed name: the client library in its parts, and the Draco decoder. */
 const assets: Record<string, string> = {
   'semblante.wasm': `${library}/semblante.wasm`,
   'semblante_view.wasm': `${library}/semblante_view.wasm`,
+  'semblante_listen.wasm': `${library}/semblante_listen.wasm`,
   'draco/draco_wasm_wrapper.js': draco + 'draco_wasm_wrapper.js',
   'draco/draco_decoder.wasm': draco + 'draco_decoder.wasm',
 };
@@ -21,6 +22,10 @@ function runtimeAssets(): Plugin {
     configureServer(server) {
       server.middlewares.use((request, response, next) => {
         const name = (request.url ?? '').split('?')[0]!.replace(/^\//, '');
+        if (name === 'listen_worklet.js') {
+          response.writeHead(302, { Location: `/@fs${here('../clients/js/listen/worklet.ts')}` });
+          return response.end();
+        }
         const file = assets[name];
         if (file === undefined || !existsSync(file)) return next();
         response.setHeader('Content-Type', name.endsWith('.wasm') ? 'application/wasm' : 'text/javascript');
@@ -51,8 +56,8 @@ export default defineConfig({
     chunkSizeWarningLimit: 1100,
     assetsInlineLimit: 0,
     rollupOptions: {
-      input: { index: here('index.html'), worker: here('offline/worker/studio.ts') },
-      output: { entryFileNames: ({ name }) => (name === 'worker' ? 'worker.js' : 'assets/[name]-[hash].js') },
+      input: { index: here('index.html'), worker: here('offline/worker/studio.ts'), listen_worklet: here('../clients/js/listen/worklet.ts') },
+      output: { entryFileNames: ({ name }) => (name === 'index' ? 'assets/[name]-[hash].js' : '[name].js') },
     },
   },
   server: {

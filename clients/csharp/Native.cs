@@ -90,6 +90,20 @@ static unsafe class Native {
         public uint MaxFrames, Reserved;
     }
 
+    [StructLayout(LayoutKind.Sequential)]
+    public struct ListenerOptions {
+        public uint Size, SampleRate;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public struct Heard {
+        public uint Size;
+        public float Level;
+        public double Time;
+        public fixed float Weights[15];
+        public fixed float Probability[15];
+    }
+
     [DllImport(Library)] public static extern uint semblante_sdk_version();
     [DllImport(Library)] public static extern IntPtr semblante_result_name(int result);
 
@@ -133,6 +147,11 @@ static unsafe class Native {
     [DllImport(Library)] public static extern void semblante_performance_destroy(IntPtr performance);
     [DllImport(Library)] public static extern double semblante_performance_duration(IntPtr performance);
     [DllImport(Library)] public static extern int semblante_performance_frame_at(IntPtr performance, double ms, double idleMs, out Frame frame);
+
+    [DllImport(Library)] public static extern int semblante_frame_from_oculus(float* weights, out Frame frame, out Error error);
+    [DllImport(Library)] public static extern int semblante_listener_create(ref ListenerOptions options, out IntPtr listener, out Error error);
+    [DllImport(Library)] public static extern void semblante_listener_destroy(IntPtr listener);
+    [DllImport(Library)] public static extern int semblante_listener_push(IntPtr listener, float* samples, uint count, out uint taken, ref Heard heard);
 }
 
 }

@@ -245,6 +245,38 @@ public sealed unsafe class Performance : Owner {
     }
 }
 
+/// Hears visemes in the sound of speech of any language, while it goes on; 52.5 ms behind it.
+public sealed unsafe class Listener : Owner {
+    /// sampleRate: 8000 to 192000 Hz.
+    public Listener(int sampleRate) {
+        var options = new Native.ListenerOptions { Size = (uint)sizeof(Native.ListenerOptions), SampleRate = (uint)sampleRate };
+        Native.Error error;
+        int result = Native.semblante_listener_create(ref options, out Handle, out error);
+        Check(result, ref error);
+    }
+
+    protected override void Destroy(IntPtr handle) { Native.semblante_listener_destroy(handle); }
+
+    /// Takes samples of one channel, of full scale 1. The mouth of the newest 10 ms that were heard; false: nothing new was.
+    public bool Push(float[] samples, out Frame frame) {
+        const int nothingNew = 9;
+        frame = new Frame();
+        var found = false;
+        fixed (float* first = samples) {
+            for (uint at = 0, taken = 0; ; at += taken) {
+                var heard = new Native.Heard { Size = (uint)sizeof(Native.Heard) };
+                int result = Native.semblante_listener_push(Handle, first + at, (uint)samples.Length - at, out taken, ref heard);
+                if (result == nothingNew) return found;
+                Check(result);
+                Native.Error error;
+                result = Native.semblante_frame_from_oculus(heard.Weights, out frame, out error);
+                Check(result, ref error);
+                found = true;
+            }
+        }
+    }
+}
+
 /// Faces of other systems.
 public static unsafe class Bridges {
     public static Frame FromArkit(float[] coefficients) {

@@ -384,3 +384,56 @@ NATIVE(jstring, arkitName)(JNIEnv* env, jclass type, jint shape) {
   const char* name = semblante_arkit_name((uint32_t)shape);
   return name == NULL ? NULL : (*env)->NewStringUTF(env, name);
 }
+
+/* ---- listeners */
+
+NATIVE(jlong, listenerCreate)(JNIEnv* env, jclass type, jint sampleRate) {
+  (void)type;
+  semblante_listener_options options = {sizeof options, sampleRate < 0 ? 0 : (uint32_t)sampleRate};
+  semblante_error error;
+  semblante_listener* listener = NULL;
+  memset(&error, 0, sizeof error);
+  const semblante_result result = semblante_listener_create(&options, &listener, &error);
+  if (result != SEMBLANTE_OK) throw_failure(env, result, &error);
+  return (jlong)(intptr_t)listener;
+}
+
+NATIVE(void, listenerDestroy)(JNIEnv* env, jclass type, jlong listener) {
+  (void)env, (void)type;
+  semblante_listener_destroy(HANDLE(semblante_listener, listener));
+}
+
+NATIVE(jboolean, listenerPush)(JNIEnv* env, jclass type, jlong listener, jfloatArray samples, jfloatArray numbers) {
+  (void)type;
+  jfloat* all = (*env)->GetFloatArrayElements(env, samples, NULL);
+  if (all == NULL) return JNI_FALSE;
+  const uint32_t count = (uint32_t)(*env)->GetArrayLength(env, samples);
+  semblante_heard newest;
+  semblante_heard heard;
+  memset(&heard, 0, sizeof heard);
+  heard.size = sizeof heard;
+  newest = heard;
+  jboolean found = JNI_FALSE;
+  semblante_result result = SEMBLANTE_OK;
+  for (uint32_t at = 0, taken = 0; result == SEMBLANTE_OK; at += taken) {
+    result = semblante_listener_push(HANDLE(semblante_listener, listener), all + at, count - at, &taken, &heard);
+    if (result != SEMBLANTE_OK) continue;
+    newest = heard;
+    found = JNI_TRUE;
+  }
+  (*env)->ReleaseFloatArrayElements(env, samples, all, JNI_ABORT);
+  if (result != SEMBLANTE_UNAVAILABLE) {
+    check(env, result);
+    return JNI_FALSE;
+  }
+  if (!found) return JNI_FALSE;
+  semblante_frame frame;
+  semblante_error error;
+  memset(&error, 0, sizeof error);
+  result = semblante_frame_from_oculus(newest.weights, &frame, &error);
+  if (result != SEMBLANTE_OK)
+    throw_failure(env, result, &error);
+  else
+    put_frame(env, &frame, numbers);
+  return found;
+}

@@ -90,3 +90,7 @@ export const momentLayout = {
 export const takeOptionsLayout = { absent: 4, gaps: 8, size: 12 } as const;
 
 export const takeWarningLayout = { oddity: 4, line: 8, count: 12, message: 16, size: 272 } as const;
+
+export const listenerOptionsLayout = { sample_rate: 4, size: 8 } as const;
+
+export const heardLayout = { level: 4, time: 8, weights: 16, probability: 76, size: 136 } as const;

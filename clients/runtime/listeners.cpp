@@ -13,6 +13,7 @@ struct semblante_listener {
 
 namespace semblante::runtime {
 static_assert(VisemeNetwork::visemes == SEMBLANTE_VISEME_COUNT);
+static_assert(VisemeListener::delay_ms == SEMBLANTE_LISTENER_DELAY_MS);
 }  // namespace semblante::runtime
 
 using namespace semblante;

@@ -549,7 +549,7 @@ semblante_result semblante_take_write(uint32_t format, const semblante_timed_fra
 typedef struct semblante_listener semblante_listener;
 
 /* From a moment of the sound to the last sample that is heard for it, ms. */
-#define SEMBLANTE_LISTENER_DELAY_MS 42.5
+#define SEMBLANTE_LISTENER_DELAY_MS 52.5
 
 typedef struct semblante_listener_options {
   uint32_t size;

@@ -15,7 +15,7 @@ class VisemeNetwork {
  public:
   static constexpr std::size_t visemes = 15;
   /// The answer to a frame is of the sound this many frames before: it has heard what comes after it.
-  static constexpr std::size_t look_ahead = 3;
+  static constexpr std::size_t look_ahead = 4;
 
   /// The probability of each viseme, of 1 in all.
   std::array<float, visemes> step(std::span<const float, SoundFeatures::count> features);

@@ -53,6 +53,7 @@ import { Shelf } from './ui/heads/shelf.ts';
 import { offlineNote } from './ui/page/offline_note.ts';
 import { progressSaid } from './ui/page/progress_said.ts';
 import { StagePanel } from './ui/page/stage_panel.ts';
+import { MicrophoneModel } from './ui/speak/microphone_model.ts';
 import { SpeakModel } from './ui/speak/speak_model.ts';
 import { SpeakPanel } from './ui/speak/speak_panel.ts';
 import { Studio } from './ui/shared/studio.ts';
@@ -115,7 +116,8 @@ function main(root: HTMLElement, session: Session | null, theme: HTMLElement): v
   });
   const clip = new ClipPanel(driver, loadLibrary, saveFile);
   const speech = new SpeakModel(api, driver, sound, loadLibrary);
-  const speak = new SpeakPanel(speech, api);
+  const microphone = new MicrophoneModel(frame, driver, loadLibrary, () => live.touch());
+  const speak = new SpeakPanel(speech, microphone, api);
   // A page that the browser keeps for Back still has its speech.
   window.addEventListener('pagehide', ({ persisted }) => {
     if (!persisted) speech.leave();
@@ -181,7 +183,7 @@ function main(root: HTMLElement, session: Session | null, theme: HTMLElement): v
 
   const address = new Address(studio, points, live);
   void Promise.all([studio.start(), live.refresh()]).then(() => address.start());
-  exposeInspection(scene, studio, driver, live, sound);
+  exposeInspection(scene, studio, driver, live, sound, microphone);
 }
 
 function makeScene(canvas: HTMLCanvasElement, api: Api): SceneView {

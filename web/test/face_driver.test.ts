@@ -51,9 +51,11 @@ const takes: Record<MotionSource, () => void> = {
     driver.clip.play();
   },
   speech: () => driver.bySpeech({ clip: new FrameClip(frames), now: () => 40 }),
+  microphone: () => driver.byMicrophone(() => frames[1]!.state),
   recording: () => driver.byRecording(moment),
   stream: () => driver.byStream(),
 };
+const isHeard = (source: MotionSource): boolean => source === 'speech' || source === 'microphone';
 const sources = Object.keys(takes) as MotionSource[];
 const pairs = sources.flatMap((from) => sources.map((to) => [from, to] as const));
 
@@ -82,8 +84,8 @@ describe('face driver', () => {
     expect(driver.source.value).toBe(to);
     expect(driver.clip.playing).toBe(to === 'clip');
     driver.step(0.016);
-    expect(face.clipTimes).toEqual(to === 'clip' ? [0] : to === 'speech' ? [40] : []);
-    expect(face.steps).toEqual(to === 'clip' || to === 'speech' ? [] : [to === 'stream']);
+    expect(face.clipTimes).toEqual(to === 'clip' ? [0] : isHeard(to) ? [40] : []);
+    expect(face.steps).toEqual(to === 'clip' || isHeard(to) ? [] : [to === 'stream']);
     if (to === 'hand') expect(face.followed.at(-1)).toBe(hand);
     if (to === 'recording') expect(face.followed.at(-1)).toBe(moment);
   });
@@ -116,10 +118,10 @@ describe('face driver', () => {
     expect(driver.source.value).toBe('hand');
   });
 
-  test.each(sources)('IdleSwitchedOff_Under%s_LeavesAClipASpeechAndAStreamAlone', async (source) => {
+  test.each(sources)('IdleSwitchedOff_Under%s_LeavesWhatMovesByItselfAlone', async (source) => {
     takes[source]();
     await driver.setIdle(null);
-    expect(driver.source.value).toBe(['clip', 'speech', 'stream'].includes(source) ? source : 'hand');
+    expect(driver.source.value).toBe(['clip', 'speech', 'microphone', 'stream'].includes(source) ? source : 'hand');
     driver.step(0.016);
     expect(face.enlivened).toBe(0);
   });
@@ -172,7 +174,7 @@ describe('face driver', () => {
     expect(driver.source.value).toBe(source === 'recording' ? 'hand' : source);
     expect([other.client, other.followed]).toEqual([client, [hand]]);
     driver.step(0.016);
-    expect(other.clipTimes).toEqual(source === 'clip' || source === 'speech' ? [40] : []);
+    expect(other.clipTimes).toEqual(source === 'clip' || isHeard(source) ? [40] : []);
   });
 
   test('NoFace_AnySource_MovesNothing', () => {

@@ -44,6 +44,11 @@ final class Native {
     static native double performanceDuration(long performance);
     static native void performanceFrameAt(long performance, double ms, float[] numbers);
 
+    static native long listenerCreate(int sampleRate);
+    static native void listenerDestroy(long listener);
+    static native boolean listenerPush(long listener, float[] samples, float[] numbers);
+
+
     static native void frameFromArkit(float[] coefficients, float[] numbers);
     static native void arkitFromFrame(float[] numbers, float[] coefficients);
     static native String arkitName(int shape);

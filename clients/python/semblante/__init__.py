@@ -10,10 +10,11 @@
         draw(head.positions(), head.triangles)
 """
 
-from ._library import Frame, Pose, TimedFrame
+from ._library import Frame, Heard, Pose, TimedFrame
 from .bridges import ARKIT_NAMES, OCULUS_NAMES, from_arkit, from_oculus, to_arkit, to_oculus
 from .errors import SemblanteError
 from .head import Head, frame
+from .listener import Listener
 from .performance import Performance, Take, TakeFormat, write_take
 from .player import Player
 from .server import Connection, fetch_head, follow, now
@@ -23,7 +24,7 @@ from .websocket import Closed, WebSocket, WebSocketError
 __version__ = "0.2.0"
 
 __all__ = [
-    "ARKIT_NAMES", "OCULUS_NAMES", "SUBPROTOCOL", "Closed", "Connection", "EventType", "Frame", "Head", "Performance",
-    "Player", "Pose", "SemblanteError", "State", "Stream", "Take", "TakeFormat", "TimedFrame", "WebSocket", "WebSocketError",
+    "ARKIT_NAMES", "OCULUS_NAMES", "SUBPROTOCOL", "Closed", "Connection", "EventType", "Frame", "Head", "Heard",
+    "Listener", "Performance", "Player", "Pose", "SemblanteError", "State", "Stream", "Take", "TakeFormat", "TimedFrame", "WebSocket", "WebSocketError",
     "fetch_head", "follow", "frame", "from_arkit", "from_oculus", "now", "to_arkit", "to_oculus", "write_take",
 ]

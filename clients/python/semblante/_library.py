@@ -9,6 +9,7 @@ import pathlib
 from ctypes import POINTER, c_char, c_char_p, c_double, c_float, c_size_t, c_uint8, c_uint32, c_uint64, c_void_p
 
 FP_COUNT = 84
+VISEME_COUNT = 15
 FAP_COUNT = 68
 VERSION = 0x000200  # SEMBLANTE_SDK_VERSION that the declarations were written for
 
@@ -162,6 +163,17 @@ class TakeWarning(Sized):
     _fields_ = [("size", c_uint32), ("oddity", c_uint32), ("line", c_uint32), ("count", c_uint32), ("message", c_char * 256)]
 
 
+class ListenerOptions(Sized):
+    _fields_ = [("size", c_uint32), ("sample_rate", c_uint32)]
+
+
+class Heard(Sized):
+    """What is heard in 10 ms: `level` in dB of full scale, `time` in ms, `weights` and `probability` of the visemes."""
+
+    _fields_ = [("size", c_uint32), ("level", c_float), ("time", c_double), ("weights", c_float * VISEME_COUNT),
+                ("probability", c_float * VISEME_COUNT)]
+
+
 # Names of C structs, for the test of layouts.
 structs = {
     "semblante_error": Error, "semblante_frame": Frame, "semblante_timed_frame": TimedFrame, "semblante_lids": Lids,
@@ -170,7 +182,7 @@ structs = {
     "semblante_stream_options": StreamOptions, "semblante_event": Event, "semblante_header": Header,
     "semblante_clock": Clock, "semblante_player_options": PlayerOptions,
     "semblante_player_statistics": PlayerStatistics, "semblante_moment": Moment, "semblante_take_options": TakeOptions,
-    "semblante_take_warning": TakeWarning,
+    "semblante_take_warning": TakeWarning, "semblante_listener_options": ListenerOptions, "semblante_heard": Heard,
 }
 
 _result = ctypes.c_int  # semblante_result
@@ -250,6 +262,9 @@ functions = {  # name: (result, arguments)
     "semblante_take_warning_count": (c_uint32, [_handle]),
     "semblante_take_get_warning": (_result, [_handle, c_uint32, POINTER(TakeWarning)]),
     "semblante_take_write": (_result, [c_uint32, _timed, c_uint32, c_double, c_char_p, POINTER(c_size_t), _error]),
+    "semblante_listener_create": (_result, [POINTER(ListenerOptions), _made, _error]),
+    "semblante_listener_destroy": (None, [_handle]),
+    "semblante_listener_push": (_result, [_handle, POINTER(c_float), c_uint32, _count, POINTER(Heard)]),
     "semblante_interpolate": (None, [POINTER(Pose), POINTER(Pose), c_float, POINTER(Pose)]),
 }
 

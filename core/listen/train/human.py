@@ -12,7 +12,7 @@ import subprocess
 import sys
 import wave
 
-from corpus import CMU
+from cmu import CMU
 
 DATA = '/usr/share/pocketsphinx/test/data'
 MODEL = '/usr/share/pocketsphinx/model/en-us'

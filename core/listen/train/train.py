@@ -15,7 +15,7 @@ import sys
 os.environ.setdefault('OPENBLAS_NUM_THREADS', '1')
 import numpy as np
 
-BANDS, FEATURES, STACKED, LOOK_AHEAD, VISEMES = 24, 25, 3, 3, 15
+BANDS, FEATURES, STACKED, LOOK_AHEAD, VISEMES = 24, 25, 3, 4, 15
 NAMES = 'sil pbm fv th td kg chjsh sz nl r a e i o u'.split()
 
 

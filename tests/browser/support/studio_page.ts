@@ -4,10 +4,11 @@ import { chromium as driver, type Browser, type BrowserContext, type Page } from
 import { buildDir, chromium } from './paths.ts';
 import { eventually, patience } from './patience.ts';
 
-export function launch(): Promise<Browser> {
+/** `args`: of Chromium, beside the usual ones. */
+export function launch(args: string[] = []): Promise<Browser> {
   return driver.launch({
     executablePath: chromium,
-    args: ['--no-sandbox', '--enable-unsafe-swiftshader'],
+    args: ['--no-sandbox', '--enable-unsafe-swiftshader', ...args],
     timeout: patience,
   });
 }

@@ -1,7 +1,9 @@
 """The package for Python on golden files and beside a real server."""
 
+import array
 import gc
 import json
+import math
 import os
 import pathlib
 import subprocess
@@ -32,6 +34,24 @@ def golden_frame(values):
         frame.expression1, frame.intensity1 = expression["select1"], expression["intensity1"]
         frame.expression2, frame.intensity2 = expression["select2"], expression["intensity2"]
     return frame
+
+
+class Listeners(unittest.TestCase):
+    def test_hears_a_step_for_each_ten_ms_of_any_blocks(self):
+        tone = array.array("f", (0.3 * math.sin(0.3 * i) * (i % 100 < 5) for i in range(16000)))
+        whole = semblante.Listener(16000).push(tone)
+        with semblante.Listener(16000) as listener:
+            parts = [heard for i in range(0, 16000, 77) for heard in listener.push(list(tone[i:i + 77]))]
+        self.assertEqual([list(one.weights) for one in whole], [list(one.weights) for one in parts])
+        self.assertEqual([one.time for one in whole[:3]], [5.0, 15.0, 25.0])
+        self.assertEqual(len(whole), 95)
+        self.assertAlmostEqual(sum(whole[50].weights), 1.0, places=5)
+        self.assertEqual(semblante.from_oculus(list(whole[50].weights)).viseme_blend <= 63, True)
+
+    def test_a_rate_that_is_none_is_refused(self):
+        with self.assertRaises(semblante.SemblanteError) as caught:
+            semblante.Listener(4000)
+        self.assertEqual(caught.exception.where, "options.sample_rate")
 
 
 class Heads(unittest.TestCase):

@@ -470,7 +470,22 @@ export const portuguese = {
   'an unnamed performance': 'uma performance sem nome',
   'Text to say': 'Texto a dizer',
   'Your own recording': 'A sua própria gravação',
-  'Type what {name} says.': 'Escreva o que {name} diz.',
+  'Type what {name} says, for captions and the best mouth. Left empty, it is heard.':
+    'Escreva o que {name} diz, para legendas e a melhor boca. Vazio, o som é ouvido.',
+  'Use the microphone': 'Usar o microfone',
+  'Stop the microphone': 'Parar o microfone',
+  'The browser asks for the microphone…': 'O navegador pede o microfone…',
+  'The face says what you say, in any language. The sound stays on this page; sliders that are sent to a stream send the mouth too.':
+    'O rosto diz o que você diz, em qualquer língua. O som fica nesta página; controles enviados a uma transmissão enviam também a boca.',
+  'The microphone was not allowed. Allow it for this page in the browser, then try again.':
+    'O microfone não foi permitido. Permita-o para esta página no navegador e tente de novo.',
+  'There is no microphone.': 'Não há microfone.',
+  'The microphone cannot be opened: another program may have it.':
+    'O microfone não pode ser aberto: talvez outro programa o use.',
+  'There is no microphone for this page: it must come by https or from localhost.':
+    'Não há microfone para esta página: ela precisa vir por https ou de localhost.',
+  'The listener was not loaded.': 'O ouvinte não foi carregado.',
+  Listening: 'Ouvindo',
   'Remove the recording': 'Remover a gravação',
   Default: 'Padrão',
   'Mouths are those of English: this language has no table of its own.':

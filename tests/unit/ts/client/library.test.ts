@@ -6,7 +6,7 @@ import { fileURLToPath } from 'node:url';
 import { gzipSync } from 'node:zlib';
 import { describe, expect, it } from 'vitest';
 import * as layouts from '../../../../clients/js/layouts.ts';
-import { viewPath, wholePath } from '../support/runtime.ts';
+import { listenPath, viewPath, wholePath } from '../support/runtime.ts';
 
 const root = fileURLToPath(new URL('../../../..', import.meta.url));
 
@@ -22,12 +22,15 @@ const structs: Record<string, Record<string, number>> = {
   semblante_moment: layouts.momentLayout,
   semblante_take_options: layouts.takeOptionsLayout,
   semblante_take_warning: layouts.takeWarningLayout,
+  semblante_listener_options: layouts.listenerOptionsLayout,
+  semblante_heard: layouts.heardLayout,
 };
 
 describe('libsemblante in WebAssembly', () => {
   it.each([
     ['semblante_view.wasm: streams, players and the kernel', viewPath, 92_000, 38_700],
-    ['semblante.wasm: everything', wholePath, 244_000, 107_500],
+    ['semblante.wasm: everything but listeners', wholePath, 244_000, 107_500],
+    ['semblante_listen.wasm: listeners', listenPath, 60_000, 52_000],
   ])('%s has no imports and is as small as this', async (_, path, bytes, gzipped) => {
     const file = readFileSync(path);
     const module = await WebAssembly.compile(file);
@@ -36,8 +39,9 @@ describe('libsemblante in WebAssembly', () => {
     expect(gzipSync(file, { level: 9 }).length).toBeLessThanOrEqual(gzipped);
   });
 
-  it('semblante.wasm exports the functions of the header', async () => {
-    const exported = new Set(WebAssembly.Module.exports(await WebAssembly.compile(readFileSync(wholePath))).map(({ name }) => name));
+  it('semblante.wasm and semblante_listen.wasm export the functions of the header', async () => {
+    const modules = await Promise.all([wholePath, listenPath].map((path) => WebAssembly.compile(readFileSync(path))));
+    const exported = new Set(modules.flatMap((module) => WebAssembly.Module.exports(module)).map(({ name }) => name));
     const listed = readFileSync(join(root, 'clients/runtime/exports.map'), 'utf8').match(/semblante_\w+(?=;)/g)!;
     expect(listed.filter((name) => !exported.has(name)).sort()).toEqual([
       // Parts of what semblante_head_positions does, which pages have by semblante_deform_changed.

@@ -9,6 +9,7 @@ const folder = process.env['SEMBLANTE_WASM'] ?? fileURLToPath(new URL('../../../
 /** The C++ build makes them: target semblante-runtime-wasm. */
 export const viewPath = join(folder, 'semblante_view.wasm');
 export const wholePath = join(folder, 'semblante.wasm');
+export const listenPath = join(folder, 'semblante_listen.wasm');
 
 /** The library of this test file. */
 export function loadRuntime(): Promise<Runtime> {

@@ -25,6 +25,7 @@ export function makeDriverChip({ driver, live, clip, recordings, scene, tab }: D
   const shown = (): string | null => {
     if (driver.source.value === 'recording') return recordings.looksAt;
     if (driver.source.value === 'speech') return t('Speaking');
+    if (driver.source.value === 'microphone') return t('Listening');
     return driver.source.value === 'clip' ? clip.value : null;
   };
   const chip = h('div', { class: 'driver', role: 'status' });

@@ -4,6 +4,7 @@ import { setExpression, setVisemes } from '../../face/frame.ts';
 import { joinSeams, smoothNormals } from '@client/gpu/drawable_mesh.ts';
 import { makeTangentTable } from '@client/gpu/tangent_table.ts';
 import { readDeformed } from '../../view/deform_probe.ts';
+import type { MicrophoneModel } from '../speak/microphone_model.ts';
 import type { FaceDriver } from '../stage/face_driver.ts';
 import type { LiveModel } from '../live/live_model.ts';
 import type { SceneView } from '../stage/scene.ts';
@@ -23,9 +24,10 @@ export function exposeInspection(
   driver: FaceDriver,
   live: LiveModel,
   sound: HTMLAudioElement,
+  microphone: MicrophoneModel,
 ): void {
   Object.assign(window, {
-    semblante: { scene, studio, driver, live, sound, compareDeformation: (edit: Edit) => compareDeformation(scene, driver, edit) },
+    semblante: { scene, studio, driver, live, sound, microphone, compareDeformation: (edit: Edit) => compareDeformation(scene, driver, edit) },
   });
 }
 

@@ -8,6 +8,7 @@ import { capital } from '../shared/names.ts';
 import { Slider } from '../shared/slider.ts';
 import { language, nameOf, t } from '../../words/words.ts';
 import { soundEndings } from './sound_files.ts';
+import type { MicrophoneModel } from './microphone_model.ts';
 import type { SpeakModel } from './speak_model.ts';
 import { wordsOf, type Word } from './spoken_words.ts';
 import { voicesOf } from './voices_of.ts';
@@ -37,12 +38,14 @@ export class SpeakPanel {
   private readonly rate: Slider;
   private readonly said = h('div', { class: 'said', 'aria-live': 'polite' });
   private readonly recorded = h('div', { class: 'speak-recorded' });
-  /** A sound file in which somebody says the text; without, the voice says it. */
+  private readonly listening = h('div', { class: 'speak-listening', 'aria-live': 'polite' });
+  /** A sound file in which somebody says the text, or what nobody typed; without, the voice says the text. */
   private recording: File | null = null;
   private words: { word: Word; element: HTMLElement }[] = [];
 
   constructor(
     private readonly model: SpeakModel,
+    private readonly microphone: MicrophoneModel,
     private readonly api: Pick<Api, 'speechUrl' | 'voices'>,
   ) {
     const own = languages.find(({ tag }) => tag === language) ?? languages[1];
@@ -83,6 +86,7 @@ export class SpeakPanel {
         h('button', { type: 'submit', class: 'primary' }, icon('play', 15), t('Speak')),
       ),
       this.said,
+      this.listening,
     );
     this.text.addEventListener('keydown', (event) => {
       if (event.key === 'Enter' && !event.shiftKey && !event.isComposing) {
@@ -100,6 +104,7 @@ export class SpeakPanel {
       },
       () => undefined,
     );
+    microphone.state.watch(() => redraw(this.listening, () => this.drawListening()));
     model.state.watch(() => this.draw());
     model.playing.watch((playing) => {
       this.draw();
@@ -107,7 +112,7 @@ export class SpeakPanel {
     });
   }
 
-  /** A sound file in which somebody says the text; the text is typed, unless it is there already. */
+  /** A sound file in which somebody speaks; the text is typed, unless it is there already or is to be heard. */
   takeRecording(file: File): void {
     this.recording = file;
     this.showRecording();
@@ -124,7 +129,7 @@ export class SpeakPanel {
         ? h(
             'div',
             { class: 'row' },
-            h('span', { class: 'grow' }, t('Type what {name} says.', { name: recording.name })),
+            h('span', { class: 'grow' }, t('Type what {name} says, for captions and the best mouth. Left empty, it is heard.', { name: recording.name })),
             h(
               'button',
               { type: 'button', on: { click: () => this.removeRecording() }, 'aria-label': t('Remove the recording') },
@@ -150,11 +155,7 @@ export class SpeakPanel {
     const emotion = this.emotion.value as NonNullable<SpeechRequest['emotion']>;
     if (this.recording) {
       const text = this.text.value.trim();
-      if (text === '') {
-        this.text.focus();
-        return Promise.resolve();
-      }
-      return this.model.sayRecording({ text, language: this.language.value, emotion }, this.recording);
+      return this.model.sayRecording({ ...(text && { text }), language: this.language.value, emotion }, this.recording);
     }
     return this.model.say({
       text: this.text.value.trim() || this.text.placeholder,
@@ -189,6 +190,33 @@ export class SpeakPanel {
 
   private draw(): void {
     redraw(this.said, () => this.drawSaid());
+  }
+
+  private drawListening(): void {
+    const { microphone } = this;
+    const state = microphone.state.value;
+    const on = state.kind === 'on' || state.kind === 'asking';
+    replace(
+      this.listening,
+      h(
+        'button',
+        {
+          type: 'button',
+          'data-focus': 'microphone',
+          'aria-pressed': String(on),
+          on: { click: () => (on ? microphone.stop() : void microphone.start()) },
+        },
+        icon(on ? 'stop' : 'microphone', 15),
+        on ? t('Stop the microphone') : t('Use the microphone'),
+      ),
+      state.kind === 'asking' ? h('p', { class: 'muted small' }, t('The browser asks for the microphone…')) : null,
+      state.kind === 'on'
+        ? h('p', { class: 'muted small' }, t('The face says what you say, in any language. The sound stays on this page; sliders that are sent to a stream send the mouth too.'))
+        : null,
+      state.kind === 'failed'
+        ? h('div', { class: 'notice error', role: 'alert' }, icon('warning', 16), h('div', { class: 'grow' }, state.message))
+        : null,
+    );
   }
 
   private drawSaid(): void {

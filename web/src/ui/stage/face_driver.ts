@@ -12,10 +12,11 @@ import { Signal } from '../shared/signal.ts';
  * - `hand`: the frame set with the sliders; the only source under which idle life runs.
  * - `clip`: a performance document or .fap file played on this page, also while it is paused.
  * - `speech`: what the server made of a text, on the clock of its sound.
+ * - `microphone`: the newest mouth that was heard.
  * - `recording`: one moment of a recording, held still.
  * - `stream`: the stream that the page subscribes to, whatever feeds it on the server.
  */
-export type MotionSource = 'hand' | 'clip' | 'speech' | 'recording' | 'stream';
+export type MotionSource = 'hand' | 'clip' | 'speech' | 'microphone' | 'recording' | 'stream';
 
 export type DrivenFace = Pick<Performer, 'follow' | 'showBetween' | 'enliven' | 'step' | 'listen'>;
 
@@ -35,6 +36,7 @@ export class FaceDriver {
   twinMoved = false;
   private client: StreamClient | null = null;
   private speech: SpokenClip | null = null;
+  private heard: (() => FaceFrame) | null = null;
   private held: FaceFrame | null = null;
   private idle: IdlePlayer | null = null;
   private loadIdle: (() => Promise<Library>) | null = null;
@@ -65,6 +67,12 @@ export class FaceDriver {
   bySpeech(speech: SpokenClip): void {
     this.speech = speech;
     this.take('speech');
+  }
+
+  /** Shows the newest frame of a microphone at once, without easing. */
+  byMicrophone(newest: () => FaceFrame): void {
+    this.heard = newest;
+    this.take('microphone');
   }
 
   /** Shows a frame of a recording and holds it. */
@@ -103,7 +111,7 @@ export class FaceDriver {
     face?.follow(this.frame);
     const source = this.source.value;
     if (source === 'clip') this.clip.seek(this.clip.position);
-    else if (source !== 'stream' && source !== 'speech') this.take('hand');
+    else if (source !== 'stream' && source !== 'speech' && source !== 'microphone') this.take('hand');
   }
 
   /** Sets a face that does the same in a second view; null: none. */
@@ -142,6 +150,8 @@ export class FaceDriver {
         return clip ? { state: clip.momentAt(this.clip.position).from.state, steps: clip.steps } : null;
       case 'speech':
         return this.speech ? { state: momentOf(this.speech).from.state, steps: this.speech.clip.steps } : null;
+      case 'microphone':
+        return this.heard ? { state: this.heard(), steps: standardQuantizers } : null;
       case 'recording':
         return this.held ? { state: this.held, steps: standardQuantizers } : null;
       case 'stream':
@@ -166,6 +176,13 @@ export class FaceDriver {
       this.twinMoved = twin !== null;
       return true;
     }
+    if (source === 'microphone' && this.heard) {
+      const frame = this.heard();
+      face.showBetween(frame, frame, 0);
+      twin?.showBetween(frame, frame, 0);
+      this.twinMoved = twin !== null;
+      return true;
+    }
     if (idle && source === 'hand') {
       const frame = idle.step(deltaSeconds);
       face.enliven(frame, idle.steps);
@@ -184,6 +201,7 @@ export class FaceDriver {
   private take(source: MotionSource): void {
     if (source !== 'clip') this.clip.pause();
     if (source !== 'speech') this.speech = null;
+    if (source !== 'microphone') this.heard = null;
     this.source.set(source);
     for (const listener of [...this.listeners]) listener(source);
   }
