@@ -216,16 +216,21 @@ function byPocketsphinx(folder) {
   return labels;
 }
 
+/** What lips tell apart, by viseme: rest, closed, lip on teeth, other consonants, open vowels, round vowels. */
+const mouths = [0, 1, 2, 3, 3, 3, 3, 3, 3, 3, 4, 4, 4, 5, 5];
+
 /** % of frames and of those of speech, at the delay, ms, that suits the contestant best. */
 function score(labels, heard) {
   let best = { right: -1 };
   for (let delay = 0; delay <= 15; delay += 1) {
-    let right = 0, all = 0, speechRight = 0, speech = 0, lipsRight = 0, lips = 0;
+    let right = 0, all = 0, mouthRight = 0, speechRight = 0, speech = 0, lipsRight = 0, lips = 0;
     for (const [name, said] of labels) {
       const frames = heard.get(name);
       for (let n = 0; n < said.length; n += 1) {
         if (said[n] < 0) continue;
-        const same = (frames[Math.min(n + delay, said.length - 1)] ?? 0) === said[n];
+        const here = frames[Math.min(n + delay, said.length - 1)] ?? 0;
+        const same = here === said[n];
+        mouthRight += mouths[here] === mouths[said[n]];
         all += 1;
         right += same;
         if (said[n] === 0) continue;
@@ -236,7 +241,7 @@ function score(labels, heard) {
         lipsRight += same;
       }
     }
-    if (right / all > best.right) best = { right: right / all, speech: speechRight / speech, lips: lipsRight / lips, delay: delay * step };
+    if (right / all > best.right) best = { right: right / all, mouth: mouthRight / all, speech: speechRight / speech, lips: lipsRight / lips, delay: delay * step };
   }
   return best;
 }
@@ -246,10 +251,10 @@ for (const folder of sets) {
   const labels = labelsOf(folder);
   const recordings = new Map([...labels.keys()].map((name) => [name, { samples48: resampled(readWav(join(folder, name)), 48_000) }]));
   console.log(`\n${basename(folder)}: ${labels.size} recordings, ${([...labels.values()].reduce((sum, one) => sum + one.length, 0) / 100).toFixed(0)} s`);
-  console.log(`${'by'.padEnd(32)} frames  of speech  p b m    at a delay of`);
+  console.log(`${'by'.padEnd(32)} frames  of speech  mouths   p b m    at a delay of`);
   const tell = (name, heard) => {
-    const { right, speech, lips, delay } = score(labels, heard);
-    console.log(`${name.padEnd(32)} ${percent(right)}  ${percent(speech)}  ${percent(lips)}  ${delay} ms`);
+    const { right, mouth, speech, lips, delay } = score(labels, heard);
+    console.log(`${name.padEnd(32)} ${percent(right)}  ${percent(speech)}  ${percent(mouth)}  ${percent(lips)}  ${delay} ms`);
   };
   for (const [name, hear] of Object.entries(contestants))
     tell(name, new Map([...recordings].map(([file, sound]) => [file, hear(sound, labels.get(file).length)])));

@@ -754,7 +754,7 @@ export interface paths {
         put?: never;
         /**
          * Have a text spoken, or take a recording or what another voice has spoken, and keep its sound and its face
-         * @description A voice, a program of its own, makes the sound of a text; the face is a performance on the same clock. Without an installed voice: 501, `no-voice`. Emoticons, emoji and spans as [joy]...[/joy] or <emotion name="joy">...</emotion> in the text give the face an emotion. What another voice has spoken is a form with its timeline and, if there is one, its sound; it needs no installed voice. A recording is a form with its sound and, in `options`, its text: the installed voice speaks the text too, and what it says when is carried over to the recording; no silence is added.
+         * @description A voice, a program of its own, makes the sound of a text; the face is a performance on the same clock. Without an installed voice: 501, `no-voice`. Emoticons, emoji and spans as [joy]...[/joy] or <emotion name="joy">...</emotion> in the text give the face an emotion. What another voice has spoken is a form with its timeline and, if there is one, its sound; it needs no installed voice. A recording is a form with its sound and, in `options`, its text: the installed voice speaks the text too, and what it says when is carried over to the recording; no silence is added. Without its text, visemes are heard in the sound, in any language and without a voice: less exactly, and without captions.
          */
         post: operations["createSpeech"];
         delete?: never;
@@ -1113,9 +1113,9 @@ export interface components {
              * @enum {unknown}
              */
             format?: "semblante" | "azure" | "polly" | "rhubarb" | "headtts" | "phonemes";
-            /** @description What is said, for words, captions and emotions; left out: what the timeline knows of it. At most 20,000 bytes, without control characters except tab and newline */
+            /** @description What is said, for words, captions and emotions; left out: what the timeline knows of it, of a recording nothing. At most 20,000 bytes, without control characters except tab and newline */
             text?: string;
-            /** @description BCP 47, of the text. Phonemes are read by its table; visemes are those of their system in every language */
+            /** @description BCP 47, of the text; und: unknown. Phonemes are read by its table; visemes are those of their system in every language */
             language: string;
             /**
              * @description Of the whole text
@@ -4804,7 +4804,7 @@ export interface operations {
                 "application/json": components["schemas"]["SpeechRequest"];
                 "multipart/form-data": {
                     options: components["schemas"]["TimelineSpeechRequest"];
-                    /** @description At most 4 MiB: visemes of Azure (JSON, or as its samples print them), speech marks of Amazon Polly, TSV, XML or JSON of Rhubarb Lip Sync, an answer of HeadTTS, lines of begin, end (s) and a phoneme in IPA between tabs, or a timeline of a speech of this server. Left out: the sound is aligned with `text`, which is required then */
+                    /** @description At most 4 MiB: visemes of Azure (JSON, or as its samples print them), speech marks of Amazon Polly, TSV, XML or JSON of Rhubarb Lip Sync, an answer of HeadTTS, lines of begin, end (s) and a phoneme in IPA between tabs, or a timeline of a speech of this server. Left out: the sound is aligned with `text`; without `text` its visemes are heard */
                     timeline?: string;
                     /** @description The sound: WAV, PCM of 8 to 32 bits or floats, 8,000 to 48,000 samples a second, one to eight channels, at most 1,200 s; where `semblante-sound` is installed also FLAC, Ogg with Vorbis or Opus, and MP3, at most 256 MiB */
                     audio?: string;
