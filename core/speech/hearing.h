@@ -10,6 +10,6 @@ namespace semblante {
 /// change from one to the next costs `change_cost` (Viterbi, 1967), so that none lasts a moment only. Time and memory
 /// are proportional to the length. The sound's rate is within the limits of utterance.h.
 Utterance hear(Recording sound);
-inline constexpr double change_cost = 2.0;  ///< negative logarithm of a probability
+inline constexpr double change_cost = 1.0;  ///< negative logarithm of a probability
 
 }  // namespace semblante

@@ -208,6 +208,7 @@ function byPocketsphinx(folder) {
     copyFileSync(join(folder, name), join(copy, name));
     const told = spawnSync('pocketsphinx_continuous', ['-infile', join(folder, name), '-hmm', `${model}/en-us`, '-allphone', `${model}/en-us-phone.lm.bin`,
       '-time', 'yes', '-logfn', '/dev/null', '-remove_silence', 'no', '-lw', '2.0', '-beam', '1e-20', '-pbeam', '1e-20'], { encoding: 'utf8' });
+    if (told.error) return null; // it is not installed
     const rows = told.stdout.split('\n').map((line) => line.trim().split(/\s+/)).filter((row) => row.length === 4);
     writeFileSync(join(copy, name.replace('.wav', '.txt')), rows.map(([phone, begin, end]) => `${begin}\t${(Number(end) + 0.01).toFixed(3)}\t${ipa[phone.toLowerCase()] ?? ''}\n`).join(''));
   }
