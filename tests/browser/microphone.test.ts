@@ -3,29 +3,17 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import type { Browser } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, expect, test } from 'vitest';
+import { vowel } from '../unit/ts/support/voice.ts';
 import { startServer, type RunningServer } from './support/server.ts';
 import { launch, StudioPage } from './support/studio_page.ts';
 
 const rate = 48_000;
 
-/** A voice of 120 Hz that says "a" for 0.6 s and is silent for 0.6 s, as a WAV file: pulses through the resonances of an open throat. */
+/** "a" for 0.6 s, and silence for 0.6 s, as a WAV file. */
 function voice(): Buffer {
   const count = 1.2 * rate;
   const samples = new Float64Array(count);
-  for (let n = 0, flow = 0; n < count / 2; n += 1) {
-    flow = 0.97 * flow + (n % (rate / 120) === 0 ? 1 : 0);
-    samples[n] = flow * Math.min(1, n / 2400, (count / 2 - n) / 2400);
-  }
-  for (const [hz, width] of [[730, 80], [1200, 90], [2500, 120]] as const) {
-    const c = -Math.exp((-2 * Math.PI * width) / rate);
-    const b = 2 * Math.exp((-Math.PI * width) / rate) * Math.cos((2 * Math.PI * hz) / rate);
-    for (let n = 0, one = 0, two = 0; n < count; n += 1) {
-      const out: number = (1 - b - c) * samples[n]! + b * one + c * two;
-      [two, one] = [one, out];
-      samples[n] = out;
-    }
-  }
-  const most = samples.reduce((a, b) => Math.max(a, Math.abs(b)), 0);
+  samples.set(vowel(rate, 0.6));
   const file = Buffer.alloc(44 + 2 * count);
   file.write('RIFF', 0);
   file.writeUInt32LE(36 + 2 * count, 4);
@@ -39,7 +27,7 @@ function voice(): Buffer {
   file.writeUInt16LE(16, 34);
   file.write('data', 36);
   file.writeUInt32LE(2 * count, 40);
-  samples.forEach((value, n) => file.writeInt16LE(Math.round((9000 * value) / most), 44 + 2 * n));
+  samples.forEach((value, n) => file.writeInt16LE(Math.round(9000 * value), 44 + 2 * n));
   return file;
 }
 
