@@ -55,6 +55,11 @@ static unsafe class Answers {
                     coefficients[shape] = (float)Number(words[i + 1]);
                 }
                 return Words(Bridges.FromArkit(coefficients));
+            case "listen":
+                var samples = new float[int.Parse(words[1])];
+                for (int i = 0; i < samples.Length; ++i) samples[i] = i % 100 < 5 ? 0.25f : 0;
+                Frame mouth;
+                using (var listener = new Listener(16000)) return listener.Push(samples, out mouth) ? Words(mouth) : "nothing";
             case "stream":
                 stream = new Semblante.Stream();
                 player = new Player(100);

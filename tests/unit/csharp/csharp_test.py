@@ -35,7 +35,8 @@ class CSharp(GoldenAnswers, unittest.TestCase):
         for name, struct in {"Frame": _library.Frame, "TimedFrame": _library.TimedFrame, "Native+Error": _library.Error,
                              "Native+Package": _library.Package, "Native+HeadOptions": _library.HeadOptions,
                              "Native+StreamOptions": _library.StreamOptions, "Native+Event": _library.Event,
-                             "Native+PlayerOptions": _library.PlayerOptions}.items():
+                             "Native+PlayerOptions": _library.PlayerOptions, "Native+ListenerOptions": _library.ListenerOptions,
+                             "Native+Heard": _library.Heard}.items():
             self.assertEqual(self.ask("size", f"Semblante.{name}"), str(_library.ctypes.sizeof(struct)), name)
 
 

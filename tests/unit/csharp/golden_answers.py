@@ -38,6 +38,13 @@ class GoldenAnswers:
             for n, value in case["faps"].items():
                 self.assertAlmostEqual(numbers[4 + int(n)], value, delta=max(0.02, 1e-5 * abs(value)))
 
+    def test_a_listener_hears_what_it_does_in_python(self):
+        import semblante
+        samples = [0.25 if i % 100 < 5 else 0.0 for i in range(8000)]
+        mouth = semblante.from_oculus(list(semblante.Listener(16000).push(samples)[-1].weights))
+        self.assertEqual(self.numbers("listen", 8000)[:3], [mouth.viseme1, mouth.viseme2, mouth.viseme_blend])
+        self.assertEqual(self.ask("listen", 100), "nothing")
+
     def test_a_head_moves_as_it_does_in_python(self):
         import semblante
         head = semblante.Head(*((VECTORS / "face" / name).read_bytes() for name in ("mesh.drc", "weights", "rig.json")))

@@ -82,6 +82,13 @@ final class Answers {
                     for (int shape = 0; shape < 52; ++shape)
                         if (Bridges.arkitName(shape).equals(words[i])) coefficients[shape] = Float.parseFloat(words[i + 1]);
                 return words(Bridges.fromArkit(coefficients));
+            case "listen":
+                float[] samples = new float[Integer.parseInt(words[1])];
+                for (int i = 0; i < samples.length; ++i) samples[i] = i % 100 < 5 ? 0.25f : 0;
+                Listener listener = new Listener(16000);
+                Frame mouth = listener.push(samples);
+                listener.close();
+                return mouth == null ? "nothing" : words(mouth);
             case "stream":
                 stream = new Stream();
                 player = new Player(100, false);
