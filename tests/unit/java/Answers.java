@@ -8,6 +8,7 @@ import java.nio.file.Paths;
 import semblante.Bridges;
 import semblante.Frame;
 import semblante.Head;
+import semblante.Listener;
 import semblante.Performance;
 import semblante.Player;
 import semblante.SemblanteException;
