@@ -20,7 +20,8 @@ export interface HeardMessage extends Heard {
 
 class ListenProcessor extends AudioWorkletProcessor {
   private readonly listener: Listener;
-  private begin = -1;
+  /** Samples so far. */
+  private pushed = 0;
 
   constructor({ processorOptions }: { processorOptions: ListenOptions }) {
     super();
@@ -30,9 +31,11 @@ class ListenProcessor extends AudioWorkletProcessor {
   process(inputs: Float32Array[][]): boolean {
     const sound = inputs[0]?.[0];
     if (!sound) return true; // the microphone is not connected yet
-    if (this.begin < 0) this.begin = currentTime;
+    // Blocks that a busy machine loses are in the clock, but not among the samples.
+    const begin = currentTime - this.pushed / sampleRate;
+    this.pushed += sound.length;
     this.listener.push(sound, (heard) => {
-      const message: HeardMessage = { ...heard, at: this.begin + heard.time / 1000 };
+      const message: HeardMessage = { ...heard, at: begin + heard.time / 1000 };
       this.port.postMessage(message, [heard.weights.buffer]);
     });
     return true;
