@@ -36,6 +36,7 @@ constexpr auto formats = std::to_array<Format>({{"performance", "json", "applica
                                                 {"arkit-csv", "csv", "text/csv"},
                                                 {"frames-json", "json", "application/json"},
                                                 {"glb", "glb", glb_media_type},
+                                                {"opus", "opus", "audio/ogg"},
                                                 {"recording", "srec", "application/octet-stream"}});
 
 const Format& format_of(const http::Request& request) {
@@ -104,7 +105,7 @@ http::Response content_of(Context& context, const http::Request& request, const 
   cut.from = whole_number(request, "from", 0, max_ms);
   cut.to = whole_number(request, "to", max_ms, max_ms);
   if (cut.to < cut.from) refuse("invalid-argument", "ends before it begins", "?to");
-  const bool by_rate = format.name != "performance" && format.name != "recording";
+  const bool by_rate = format.name != "performance" && format.name != "opus" && format.name != "recording";
   if (request.query_value("rate")) {
     if (!by_rate) refuse("invalid-argument", "a " + std::string(format.name) + " has no rate", "?rate");
     cut.rate = whole_number(request, "rate", 0, 1000);
@@ -137,6 +138,8 @@ http::Response content_of(Context& context, const http::Request& request, const 
     response.body = text(export_fap(reader, cut, record.id));
   else if (format.name == "glb")
     response.body = clip_of(context, request, recording, reader, cut);
+  else if (format.name == "opus")
+    response.body = through_a_file(context, [&](std::ostream& to) { return export_sound(reader, cut, to); });
   else if (format.name == "arkit-csv")
     response.body = through_a_file(context, [&](std::ostream& to) { return export_arkit_csv(reader, cut, to); });
   else

@@ -242,8 +242,23 @@ void Recorder::taken(std::string_view stream, std::uint64_t epoch, const Frames&
       continue;
     }
     if (!copy) copy = std::make_shared<const Frames>(batch);
-    running->queue.push_back(copy);
+    running->queue.batches.push_back(copy);
     running->queued_frames += batch.frames.size();
+  }
+  if (!copy || has_work_) return;
+  has_work_ = true;
+  work_.notify_one();
+}
+
+void Recorder::heard(std::string_view stream, std::uint64_t epoch, const SoundPacket& sound) {
+  if (running_count_ == 0) return;
+  const std::lock_guard lock(mutex_);
+  std::shared_ptr<const SoundPacket> copy;
+  for (const auto& [id, running] : running_) {
+    if (running->record.stream != stream || running->record.epoch != epoch || !running->stop_reason.empty()) continue;
+    if (running->queue.sound.size() >= limits_.queued_frames) continue;
+    if (!copy) copy = std::make_shared<const SoundPacket>(sound);
+    running->queue.sound.push_back(copy);
   }
   if (!copy || has_work_) return;
   has_work_ = true;
@@ -272,18 +287,17 @@ void Recorder::run() {
     std::vector<std::shared_ptr<Running>> all;
     for (const auto& [id, running] : running_) all.push_back(running);
     for (const auto& running : all) {
-      std::deque<std::shared_ptr<const Frames>> batches;
-      batches.swap(running->queue);
+      const Queue queue = std::exchange(running->queue, {});
       running->queued_frames = 0;
       std::string reason = running->stop_reason;
       lock.unlock();
       const auto now = Clock::now();
-      if (!running->waiting_since && !batches.empty()) running->waiting_since = now;
+      if (!running->waiting_since && !(queue.batches.empty() && queue.sound.empty())) running->waiting_since = now;
       if (reason.empty() && running->ends && now >= *running->ends) reason = ended::max_duration;
       const bool flush =
           !reason.empty() || (running->waiting_since && now - *running->waiting_since >= limits_.flush_interval);
       std::string_view must_end = ended::disk_full;  // replaced if the write succeeds
-      log::guarded("recording " + running->record.id, [&] { must_end = write(*running, batches, flush); });
+      log::guarded("recording " + running->record.id, [&] { must_end = write(*running, queue, flush); });
       if (!must_end.empty() && (reason.empty() || must_end == ended::disk_full)) reason = must_end;
       if (!reason.empty()) log::guarded("recording " + running->record.id, [&] { finish(*running, reason); });
       lock.lock();
@@ -298,48 +312,58 @@ void Recorder::run() {
   }
 }
 
-std::string_view Recorder::write(Running& running, const std::deque<std::shared_ptr<const Frames>>& batches,
-                                 bool flush) {
+std::string_view Recorder::write(Running& running, const Queue& queue, bool flush) {
   auto& writer = *running.writer;
   std::string_view reason;
-  for (const auto& batch : batches) {
+  // Sound first: a chunk of frames that is full is written with the sound of its time.
+  for (const auto& sound : queue.sound) {
     if (reason = beyond_a_limit(running); !reason.empty()) break;
-    Status added = Unit{};
-    const auto first = writer.first_media_time().value_or(batch->media_time);
-    const auto last_time = first + running.record.max_duration.value_or(max_recording_ms);
-    if (batch->media_time + batch->frames.back().time <= last_time) {
-      added = writer.add(*batch);
-    } else {
-      Frames part = *batch;
-      std::erase_if(part.frames, [&](const TimedFrame& frame) { return batch->media_time + frame.time > last_time; });
-      if (!part.frames.empty()) added = writer.add(part);
-      reason = ended::max_duration;
-    }
-    if (!added) {
-      reason = added.error().code == ErrorCode::io ? ended::disk_full : ended::max_duration;
-      if (added.error().code == ErrorCode::io)
-        log::error("recording " + running.record.id + ": " + added.error().message);
-    }
+    const auto first = writer.first_media_time();
+    if (first && sound->media_time > *first + running.record.max_duration.value_or(max_recording_ms)) continue;
+    if (const auto added = writer.add(*sound); !added) reason = write_failure(running, added.error());
     if (!reason.empty()) break;
+  }
+  for (const auto& batch : queue.batches) {
+    if (!reason.empty()) break;
+    reason = write_batch(running, *batch);
   }
   if (flush || !reason.empty()) {
     running.waiting_since.reset();
     if (reason.empty() && running.has_room && !running.has_room()) reason = ended::max_token_bytes;
-    if (const auto flushed = writer.flush(); !flushed) {
-      log::error("recording " + running.record.id + ": " + flushed.error().message);
-      reason = ended::disk_full;
-    }
+    if (const auto flushed = writer.flush(); !flushed) reason = write_failure(running, flushed.error());
     if (reason.empty() && store::free_bytes(folder_) < limits_.disk_reserve) reason = ended::disk_full;
   }
   publish_progress(running);
   return reason;
 }
 
+std::string_view Recorder::write_batch(Running& running, const Frames& batch) {
+  auto& writer = *running.writer;
+  if (const auto reason = beyond_a_limit(running); !reason.empty()) return reason;
+  const auto first = writer.first_media_time().value_or(batch.media_time);
+  const auto last_time = first + running.record.max_duration.value_or(max_recording_ms);
+  if (batch.media_time + batch.frames.back().time <= last_time) {
+    const auto added = writer.add(batch);
+    return added ? std::string_view() : write_failure(running, added.error());
+  }
+  Frames part = batch;
+  std::erase_if(part.frames, [&](const TimedFrame& frame) { return batch.media_time + frame.time > last_time; });
+  if (!part.frames.empty()) {
+    if (const auto added = writer.add(part); !added) return write_failure(running, added.error());
+  }
+  return ended::max_duration;
+}
+
+std::string_view Recorder::write_failure(const Running& running, const Error& error) {
+  if (error.code != ErrorCode::io) return ended::max_duration;
+  log::error("recording " + running.record.id + ": " + error.message);
+  return ended::disk_full;
+}
+
 std::string_view Recorder::beyond_a_limit(const Running& running) const {
-  // One more chunk must fit, so that no limit is ever exceeded.
-  constexpr std::uint64_t chunk = chunk_head_bytes + max_chunk_bytes;
-  if (running.writer->durable().bytes + chunk > limits_.max_bytes) return ended::max_bytes;
-  if (total_bytes_ + chunk > limits_.max_total_bytes) return ended::max_total_bytes;
+  // What is written at once must fit, so that no limit is ever exceeded.
+  if (running.writer->durable().bytes + max_written_at_once > limits_.max_bytes) return ended::max_bytes;
+  if (total_bytes_ + max_written_at_once > limits_.max_total_bytes) return ended::max_total_bytes;
   return {};
 }
 

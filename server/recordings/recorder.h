@@ -28,7 +28,7 @@ struct RecorderLimits {
   std::uint64_t max_bytes = std::uint64_t{256} << 20U;       ///< size of one recording
   std::uint64_t max_total_bytes = std::uint64_t{16} << 30U;  ///< of all recordings together
   std::uint64_t disk_reserve = std::uint64_t{256} << 20U;    ///< bytes that recordings leave free on the disk
-  std::size_t queued_frames = 8192;                          ///< per recording, waiting to be written
+  std::size_t queued_frames = 8192;                          ///< per recording, waiting to be written; also packets
   std::chrono::milliseconds flush_interval{500};             ///< time until received frames are durable
 };
 
@@ -67,8 +67,8 @@ struct RecorderCounts {
 };
 
 /// Records streams: listens to their batches and writes them on its own thread. Sources never wait: batches are queued,
-/// and when the disk is too slow they are dropped, counted, and leave a gap in the recording. Any thread; all calls
-/// except the listener's may wait for the disk.
+/// and when the disk is too slow they are dropped, counted, and leave a gap in the recording; so is sound, uncounted.
+/// Any thread; all calls except the listener's may wait for the disk.
 class Recorder : public streams::BatchListener {
  public:
   /// Files are `folder`/<id>.srec. Recordings that an earlier process left running are truncated after their last
@@ -103,10 +103,16 @@ class Recorder : public streams::BatchListener {
   [[nodiscard]] const RecorderLimits& limits() const { return limits_; }
 
   void taken(std::string_view stream, std::uint64_t epoch, const Frames& batch) override;
+  void heard(std::string_view stream, std::uint64_t epoch, const SoundPacket& sound) override;
   void ended(std::string_view stream) override;
 
  private:
   using Clock = std::chrono::steady_clock;
+  /// What waits to be written.
+  struct Queue {
+    std::deque<std::shared_ptr<const Frames>> batches;
+    std::vector<std::shared_ptr<const SoundPacket>> sound;
+  };
   struct Running {
     store::RecordingRecord record;
     std::unique_ptr<RecordingWriter> writer;         ///< used only by the recorder's thread
@@ -115,7 +121,7 @@ class Recorder : public streams::BatchListener {
     std::function<bool()> has_room;  ///< thread only
     std::uint64_t stored_bytes = 0;  ///< in the store's record; never changes
     // Guarded by the mutex:
-    std::deque<std::shared_ptr<const Frames>> queue;
+    Queue queue;
     std::size_t queued_frames = 0;
     std::uint64_t dropped = 0;
     std::string stop_reason;  ///< empty: running
@@ -128,7 +134,10 @@ class Recorder : public streams::BatchListener {
   void repair(const std::string& id);
   void run();
   /// Writes the queued batches; returns the reason why the recording must end, or "".
-  std::string_view write(Running& running, const std::deque<std::shared_ptr<const Frames>>& batches, bool flush);
+  std::string_view write(Running& running, const Queue& queue, bool flush);
+  /// Writes frames; returns the reason as above.
+  std::string_view write_batch(Running& running, const Frames& batch);
+  static std::string_view write_failure(const Running& running, const Error& error);
   std::string_view beyond_a_limit(const Running& running) const;
   void finish(Running& running, std::string reason);
   /// Keeps the record of a recording that has ended, which is shown as running until its end is durable.

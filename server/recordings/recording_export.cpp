@@ -12,12 +12,17 @@
 #include "protocol/cpp/json_codec.h"
 #include "protocol/cpp/kernel_values.h"
 #include "protocol/cpp/performance_document.h"
+#include "server/recordings/ogg_opus.h"
 
 namespace semblante::recordings {
 namespace {
 
 using SharedReader = std::shared_ptr<const RecordingReader>;
 
+Error unwritable() { return {ErrorCode::io, "", "it cannot be written"}; }
+Error too_long() {
+  return {ErrorCode::too_large, "", "it is over " + std::to_string(max_written_bytes) + " bytes: take a part"};
+}
 Error nothing() { return {ErrorCode::empty, "", "there is no frame in this part of the recording"}; }
 
 /// The smallest ratio of a stream's quantizer step to the standard one.
@@ -36,9 +41,8 @@ Status write_each(SharedReader reader, const Cut& cut, const std::ostream& to, W
   std::uint64_t bytes = 0;
   while (frames.next(frame)) {
     bytes += write(frame);
-    if (!to) return Error{ErrorCode::io, "", "it cannot be written"};
-    if (bytes > max_written_bytes)
-      return Error{ErrorCode::too_large, "", "it is over " + std::to_string(max_written_bytes) + " bytes: take a part"};
+    if (!to) return unwritable();
+    if (bytes > max_written_bytes) return too_long();
   }
   if (frames.error()) return *frames.error();
   if (bytes == 0) return nothing();
@@ -163,6 +167,22 @@ Status export_arkit_csv(SharedReader reader, const Cut& cut, std::ostream& to) {
     to << text;
     return text.size();
   });
+}
+
+Status export_sound(SharedReader reader, const Cut& cut, std::ostream& to) {
+  RecordingSoundCursor cursor(reader, cut.from);
+  const auto in_cut = [&] { return cursor.packet() != nullptr && cursor.packet()->media_time <= cut.to; };
+  if (!in_cut() && !cursor.error()) return Error{ErrorCode::empty, "", "there is no sound in it"};
+  const auto& track = reader->header().sound;
+  OggOpusWriter writer(to, track && track->channels == 2 ? 2 : 1);
+  for (; in_cut(); cursor.advance()) {
+    writer.add(cursor.packet()->media_time - cut.from, cursor.packet()->packet);
+    if (!to) return unwritable();
+    if (writer.bytes() > max_written_bytes) return too_long();
+  }
+  if (cursor.error()) return *cursor.error();
+  writer.finish();
+  return to ? Status(Unit{}) : unwritable();
 }
 
 }  // namespace semblante::recordings

@@ -61,5 +61,8 @@ Result<std::string> export_fap(std::shared_ptr<const RecordingReader> reader, co
 Status export_frames(std::shared_ptr<const RecordingReader> reader, const Cut& cut, std::ostream& to);
 /// A take in the CSV form of Live Link Face; written chunk by chunk.
 Status export_arkit_csv(std::shared_ptr<const RecordingReader> reader, const Cut& cut, std::ostream& to);
+/// The sound as Ogg/Opus on the clock of the faces of the same cut; written chunk by chunk, for any length. Empty when
+/// no sound begins in the cut.
+Status export_sound(std::shared_ptr<const RecordingReader> reader, const Cut& cut, std::ostream& to);
 
 }  // namespace semblante::recordings

@@ -143,6 +143,28 @@ std::vector<std::uint8_t> encode_chunk(std::span<const RecordingFrame> frames, s
   return chunk;
 }
 
+std::size_t sound_message_bytes(const SoundPacket& sound) {
+  // The most that the varints of length, media time and packet size, and the type, take.
+  constexpr std::size_t around_packet = 3 + 1 + 8 + 2;
+  return sound.packet.size() + around_packet;
+}
+
+std::vector<std::uint8_t> encode_sound_chunk(std::span<const SoundPacket> packets) {
+  assert(!packets.empty() && packets.size() <= max_chunk_frames);
+  std::vector<std::uint8_t> chunk(chunk_head_bytes);
+  std::vector<std::uint8_t> message;
+  for (const auto& packet : packets) {
+    message.clear();
+    encode_message(packet, message);
+    append_message(chunk, message);
+  }
+  finish(chunk, {.kind = ChunkKind::sound,
+                 .frames = static_cast<std::uint32_t>(packets.size()),
+                 .begin = packets.front().media_time,
+                 .end = packets.back().media_time});
+  return chunk;
+}
+
 Result<ChunkHead> read_chunk_head(Bytes bytes) {
   if (bytes.size() < chunk_head_bytes) return Error{ErrorCode::truncated, "", "the head of a chunk is cut off"};
   if (!std::equal(chunk_magic.begin(), chunk_magic.end(), bytes.begin())) return malformed("no chunk begins here");
@@ -156,9 +178,10 @@ Result<ChunkHead> read_chunk_head(Bytes bytes) {
   head.begin = get_u64(&bytes[at_begin]);
   head.end = get_u64(&bytes[at_end]);
   if (head.bytes > max_chunk_bytes) return Error{ErrorCode::too_large, "", "the chunk's length is over the limit"};
-  if (head.kind != ChunkKind::frames) return head;
+  if (head.kind != ChunkKind::frames && head.kind != ChunkKind::sound) return head;
   const bool in_range = head.frames >= 1 && head.frames <= max_chunk_frames && head.sequence <= max_number &&
-                        head.end <= max_number && head.begin <= head.end;
+                        head.end <= max_number && head.begin <= head.end &&
+                        (head.kind == ChunkKind::frames || (head.sequence == 0 && head.lost == 0));
   if (!in_range) return Error{ErrorCode::out_of_range, "", "the head of a chunk has impossible values"};
   return head;
 }
@@ -205,6 +228,28 @@ Result<std::vector<RecordingFrame>> read_frames_chunk(Bytes bytes) {
                      [](const RecordingFrame& a, const RecordingFrame& b) { return a.media_time < b.media_time; });
   if (!as_said || !in_order) return malformed("the frames of a chunk do not match its head");
   return frames;
+}
+
+Result<std::vector<SoundPacket>> read_sound_chunk(Bytes bytes) {
+  const auto head = checked_head(bytes, ChunkKind::sound);
+  if (!head) return head.error();
+  Messages messages(bytes.subspan(chunk_head_bytes, head->bytes));
+  std::vector<SoundPacket> packets;
+  while (!messages.empty() && packets.size() < head->frames) {
+    const auto bytes_of_one = messages.next();
+    if (!bytes_of_one) return bytes_of_one.error();
+    auto message = FrameDecoder().decode(*bytes_of_one);
+    if (!message) return message.error();
+    auto* sound = std::get_if<SoundPacket>(&*message);
+    if (sound == nullptr) return malformed("a message of a chunk of sound is not sound");
+    if (!packets.empty() && sound->media_time < packets.back().media_time)
+      return malformed("the packets of a chunk are not in the order of their times");
+    packets.push_back(std::move(*sound));
+  }
+  const bool as_said = packets.size() == head->frames && packets.front().media_time == head->begin &&
+                       packets.back().media_time == head->end;
+  if (!as_said) return malformed("the packets of a chunk do not match its head");
+  return packets;
 }
 
 }  // namespace semblante::recordings

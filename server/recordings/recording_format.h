@@ -20,20 +20,24 @@ inline constexpr std::size_t chunk_head_bytes = 48;
 /// each.
 inline constexpr std::uint32_t max_chunk_bytes = 512U << 10U;
 inline constexpr std::size_t max_chunk_frames = max_frames_per_message;
+/// Limit of the messages in a chunk of sound that is written; those up to max_chunk_bytes are read.
+inline constexpr std::uint32_t max_sound_chunk_bytes = 64U << 10U;
+/// What is written at once at most: a chunk of frames and one of sound.
+inline constexpr std::uint64_t max_written_at_once = 2 * chunk_head_bytes + max_chunk_bytes + max_sound_chunk_bytes;
 /// ms after the first frame: one day, like the frames of a message.
 inline constexpr std::uint64_t max_recording_ms = max_frame_time;
 
-enum class ChunkKind : std::uint8_t { header = 1, frames = 2 };
+enum class ChunkKind : std::uint8_t { header = 1, frames = 2, sound = 3 };
 
 /// The head of a chunk, before its messages. Media times in ms of the stream's clock.
 struct ChunkHead {
   std::uint32_t bytes = 0;  ///< of the messages
   std::uint32_t crc = 0;
   ChunkKind kind = ChunkKind::frames;
-  std::uint32_t frames = 0;
-  std::uint32_t lost = 0;  ///< number of frames directly before these that were not recorded
+  std::uint32_t frames = 0;  ///< or packets of sound
+  std::uint32_t lost = 0;    ///< number of frames directly before these that were not recorded; 0 for sound
   std::uint64_t sequence = 0;
-  std::uint64_t begin = 0, end = 0;  ///< media times of the first frame and the last
+  std::uint64_t begin = 0, end = 0;  ///< media times of the first frame or packet and the last
 
   friend bool operator==(const ChunkHead&, const ChunkHead&) = default;
 };
@@ -52,6 +56,11 @@ std::vector<std::uint8_t> encode_beginning(const Header& header);
 /// A chunk of 1 to max_chunk_frames frames with consecutive sequence numbers and media times that never decrease.
 std::vector<std::uint8_t> encode_chunk(std::span<const RecordingFrame> frames, std::uint32_t lost);
 
+/// How much of max_sound_chunk_bytes a packet takes.
+std::size_t sound_message_bytes(const SoundPacket& sound);
+/// A chunk of 1 to max_chunk_frames packets whose media times never decrease, within max_sound_chunk_bytes.
+std::vector<std::uint8_t> encode_sound_chunk(std::span<const SoundPacket> packets);
+
 /// The first chunk_head_bytes of a chunk. Errors: truncated, malformed (no chunk begins here), out_of_range.
 Result<ChunkHead> read_chunk_head(std::span<const std::uint8_t> bytes);
 
@@ -61,5 +70,6 @@ bool has_right_checksum(std::span<const std::uint8_t> chunk);
 /// The content of a complete chunk (head and messages). Errors: truncated, mismatch (wrong checksum), malformed.
 Result<Header> read_header_chunk(std::span<const std::uint8_t> bytes);
 Result<std::vector<RecordingFrame>> read_frames_chunk(std::span<const std::uint8_t> bytes);
+Result<std::vector<SoundPacket>> read_sound_chunk(std::span<const std::uint8_t> bytes);
 
 }  // namespace semblante::recordings

@@ -60,34 +60,54 @@ std::optional<Error> RecordingReader::walk(Check check) {
     const Chunk chunk{whole_bytes_, *head};
     const std::uint64_t end = whole_bytes_ + chunk_head_bytes + head->bytes;
     if (end > bytes_->size()) return Error{ErrorCode::truncated, "", "the chunk is cut off"};
-    if (head->kind == ChunkKind::frames) {
-      const bool follows = frames_ == 0 || (head->begin >= end_ && head->sequence == last_sequence_ + 1 + head->lost);
-      if (!follows) return Error{ErrorCode::malformed, "", "a chunk does not follow the one before it"};
-      if (head->end - (frames_ == 0 ? head->begin : begin_) > max_recording_ms)
-        return Error{ErrorCode::out_of_range, "", "longer than a day"};
-      if (check == Check::everything) {
-        if (const auto frames = read(chunk); !frames) return frames.error();
-      }
-      add(chunk);
-    } else if (const auto intact = check_chunk(*bytes_, chunk.offset, *head); !intact) {
-      return intact.error();  // a frames chunk with a damaged kind must not be skipped
-    }
+    // A chunk of another kind is checked too: one of frames with a damaged kind must not be skipped.
+    const auto taken = head->kind == ChunkKind::frames  ? add_frames(chunk, check)
+                       : head->kind == ChunkKind::sound ? add_sound(chunk, check)
+                                                        : check_chunk(*bytes_, chunk.offset, *head);
+    if (!taken) return taken.error();
     whole_bytes_ = end;
   }
   return std::nullopt;
 }
 
-void RecordingReader::add(const Chunk& chunk) {
-  if (frames_ == 0) begin_ = chunk.head.begin;
-  end_ = chunk.head.end;
-  frames_ += chunk.head.frames;
-  lost_ += chunk.head.lost;
-  last_sequence_ = chunk.head.sequence + chunk.head.frames - 1;
+Status RecordingReader::add_frames(const Chunk& chunk, Check check) {
+  const auto& head = chunk.head;
+  const bool follows = frames_ == 0 || (head.begin >= end_ && head.sequence == last_sequence_ + 1 + head.lost);
+  if (!follows) return Error{ErrorCode::malformed, "", "a chunk does not follow the one before it"};
+  if (head.end - (frames_ == 0 ? head.begin : begin_) > max_recording_ms)
+    return Error{ErrorCode::out_of_range, "", "longer than a day"};
+  if (check == Check::everything) {
+    if (const auto frames = read(chunk); !frames) return frames.error();
+  }
+  if (frames_ == 0) begin_ = head.begin;
+  end_ = head.end;
+  frames_ += head.frames;
+  lost_ += head.lost;
+  last_sequence_ = head.sequence + head.frames - 1;
+  index_.add(chunk);
+  return Unit{};
+}
+
+Status RecordingReader::add_sound(const Chunk& chunk, Check check) {
+  const auto& head = chunk.head;
+  const bool follows = frames_ != 0 && head.begin >= begin_ && head.begin >= sound_end_;
+  if (!follows) return Error{ErrorCode::malformed, "", "a chunk of sound does not follow those before it"};
+  if (head.end - begin_ > max_recording_ms) return Error{ErrorCode::out_of_range, "", "longer than a day"};
+  if (check == Check::everything) {
+    if (const auto packets = read_sound(chunk); !packets) return packets.error();
+  }
+  sound_end_ = head.end;
+  sound_packets_ += head.frames;
+  sound_index_.add(chunk);
+  return Unit{};
+}
+
+void RecordingReader::Index::add(const Chunk& chunk) {
   if (chunks_++ % stride_ != 0) return;
-  index_.push_back({chunk.offset, chunk.head.begin});
-  if (index_.size() < max_index) return;
-  for (std::size_t i = 0; 2 * i < index_.size(); ++i) index_[i] = index_[2 * i];
-  index_.resize((index_.size() + 1) / 2);
+  entries_.push_back({chunk.offset, chunk.head.begin});
+  if (entries_.size() < max_index) return;
+  for (std::size_t i = 0; 2 * i < entries_.size(); ++i) entries_[i] = entries_[2 * i];
+  entries_.resize((entries_.size() + 1) / 2);
   stride_ *= 2;
 }
 
@@ -108,7 +128,7 @@ std::optional<RecordingReader::Chunk> RecordingReader::chunk_after(const Chunk& 
   std::uint64_t offset = chunk.offset + chunk_head_bytes + chunk.head.bytes;
   while (offset < whole_bytes_) {
     const auto next = chunk_at(offset);
-    if (!next || next->head.kind == ChunkKind::frames) return next;
+    if (!next || next->head.kind == chunk.head.kind) return next;
     offset += chunk_head_bytes + next->head.bytes;
   }
   return std::nullopt;
@@ -122,16 +142,24 @@ Result<std::vector<RecordingFrame>> RecordingReader::read(const Chunk& chunk) co
   return frames;
 }
 
-std::uint64_t RecordingReader::offset_before(std::uint64_t media_time) const {
-  const auto after = std::lower_bound(index_.begin(), index_.end(), media_time,
+Result<std::vector<SoundPacket>> RecordingReader::read_sound(const Chunk& chunk) const {
+  const auto bytes = read_chunk(*bytes_, chunk.offset, chunk.head);
+  if (!bytes) return bytes.error();
+  auto packets = read_sound_chunk(*bytes);
+  if (!packets) return at_byte(chunk.offset, packets.error());
+  return packets;
+}
+
+std::uint64_t RecordingReader::Index::offset_before(std::uint64_t media_time) const {
+  const auto after = std::lower_bound(entries_.begin(), entries_.end(), media_time,
                                       [](const Entry& entry, std::uint64_t time) { return entry.begin < time; });
-  return after == index_.begin() ? index_.front().offset : (after - 1)->offset;
+  return after == entries_.begin() ? entries_.front().offset : (after - 1)->offset;
 }
 
 Result<std::optional<RecordingFrame>> RecordingReader::at(std::uint32_t ms) const {
   if (frames_ == 0) return std::optional<RecordingFrame>();
   const std::uint64_t time = begin_ + ms;
-  auto chunk = chunk_at(offset_before(time));
+  auto chunk = chunk_at(index_.offset_before(time));
   while (chunk) {
     const auto next = chunk_after(*chunk);
     if (!next || next->head.begin > time) break;
@@ -150,7 +178,7 @@ RecordingCursor::RecordingCursor(std::shared_ptr<const RecordingReader> reader, 
     : reader_(std::move(reader)) {
   if (reader_->frames() == 0) return;
   const std::uint64_t time = reader_->begin() + ms;
-  auto chunk = reader_->chunk_at(reader_->offset_before(time));
+  auto chunk = reader_->chunk_at(reader_->index_.offset_before(time));
   while (chunk && chunk->head.end < time) chunk = reader_->chunk_after(*chunk);
   load(chunk);
   while (frame() != nullptr && frame()->media_time < time) ++next_;
@@ -178,6 +206,37 @@ std::uint32_t RecordingCursor::time() const {
 void RecordingCursor::advance() {
   if (frame() == nullptr) return;
   if (++next_ == frames_.size()) load(reader_->chunk_after(*chunk_));
+}
+
+RecordingSoundCursor::RecordingSoundCursor(std::shared_ptr<const RecordingReader> reader, std::uint32_t ms)
+    : reader_(std::move(reader)) {
+  if (reader_->sound_index_.empty()) return;
+  const std::uint64_t time = reader_->begin() + ms;
+  auto chunk = reader_->chunk_at(reader_->sound_index_.offset_before(time));
+  while (chunk && chunk->head.end < time) chunk = reader_->chunk_after(*chunk);
+  load(chunk);
+  while (packet() != nullptr && packet()->media_time < ms) ++next_;
+}
+
+void RecordingSoundCursor::load(std::optional<RecordingReader::Chunk> chunk) {
+  chunk_ = chunk;
+  next_ = 0;
+  packets_.clear();
+  if (!chunk_) return;
+  auto packets = reader_->read_sound(*chunk_);
+  if (!packets) {
+    error_ = std::move(packets).error();
+    return;
+  }
+  packets_ = std::move(*packets);
+  for (auto& packet : packets_) packet.media_time -= reader_->begin();
+}
+
+const SoundPacket* RecordingSoundCursor::packet() const { return next_ < packets_.size() ? &packets_[next_] : nullptr; }
+
+void RecordingSoundCursor::advance() {
+  if (packet() == nullptr) return;
+  if (++next_ == packets_.size()) load(reader_->chunk_after(*chunk_));
 }
 
 }  // namespace semblante::recordings

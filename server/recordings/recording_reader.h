@@ -29,6 +29,8 @@ class RecordingReader {
   [[nodiscard]] const Header& header() const { return header_; }
   [[nodiscard]] std::uint64_t frames() const { return frames_; }
   [[nodiscard]] std::uint64_t lost() const { return lost_; }
+  /// Packets of sound.
+  [[nodiscard]] std::uint64_t sound_packets() const { return sound_packets_; }
   /// Media time of the first frame; times in a recording are ms after it.
   [[nodiscard]] std::uint64_t begin() const { return begin_; }
   /// Time of the last frame.
@@ -47,30 +49,45 @@ class RecordingReader {
 
  private:
   friend class RecordingCursor;
-  struct Entry {
-    std::uint64_t offset = 0;
-    std::uint64_t begin = 0;  ///< media time
-  };
+  friend class RecordingSoundCursor;
   struct Chunk {
     std::uint64_t offset = 0;
     ChunkHead head;
   };
+  /// Where the chunks of one kind are.
+  class Index {
+   public:
+    void add(const Chunk& chunk);
+    [[nodiscard]] bool empty() const { return entries_.empty(); }
+    /// The offset of the last indexed chunk that begins before `media_time`, else of the first chunk.
+    [[nodiscard]] std::uint64_t offset_before(std::uint64_t media_time) const;
+
+   private:
+    struct Entry {
+      std::uint64_t offset = 0;
+      std::uint64_t begin = 0;  ///< media time
+    };
+    std::vector<Entry> entries_;
+    std::size_t stride_ = 1;  ///< chunks per entry
+    std::size_t chunks_ = 0;
+  };
 
   [[nodiscard]] std::optional<Chunk> chunk_at(std::uint64_t offset) const;
+  /// The next chunk of the same kind.
   [[nodiscard]] std::optional<Chunk> chunk_after(const Chunk& chunk) const;
   [[nodiscard]] Result<std::vector<RecordingFrame>> read(const Chunk& chunk) const;
-  /// The offset of the last indexed chunk that begins before `media_time`, else of the first chunk.
-  [[nodiscard]] std::uint64_t offset_before(std::uint64_t media_time) const;
-  void add(const Chunk& chunk);
+  [[nodiscard]] Result<std::vector<SoundPacket>> read_sound(const Chunk& chunk) const;
+  /// Checks that a chunk follows those before it, and takes it into the index.
+  Status add_frames(const Chunk& chunk, Check check);
+  Status add_sound(const Chunk& chunk, Check check);
   std::optional<Error> walk(Check check);
 
   std::shared_ptr<const ByteSource> bytes_;
   Header header_;
-  std::vector<Entry> index_;
-  std::size_t stride_ = 1;  ///< chunks per entry of the index
-  std::size_t chunks_ = 0;
+  Index index_, sound_index_;
   std::uint64_t first_chunk_ = 0;  ///< offset after the header's chunk
   std::uint64_t frames_ = 0, lost_ = 0, begin_ = 0, end_ = 0, whole_bytes_ = 0, last_sequence_ = 0;
+  std::uint64_t sound_packets_ = 0, sound_end_ = 0;  ///< sound_end_: media time of the last packet
   std::string torn_reason_;
 };
 
@@ -93,6 +110,28 @@ class RecordingCursor {
   std::shared_ptr<const RecordingReader> reader_;
   std::optional<RecordingReader::Chunk> chunk_;
   std::vector<RecordingFrame> frames_;
+  std::size_t next_ = 0;
+  std::optional<Error> error_;
+};
+
+/// Iterates over the packets of sound in order; keeps one chunk in memory.
+class RecordingSoundCursor {
+ public:
+  /// Begins at the first packet at or after `ms`.
+  RecordingSoundCursor(std::shared_ptr<const RecordingReader> reader, std::uint32_t ms);
+
+  /// The current packet, with its time in ms after the beginning of the recording; null after the last one, and at a
+  /// damaged chunk: then error() is set.
+  [[nodiscard]] const SoundPacket* packet() const;
+  void advance();
+  [[nodiscard]] const std::optional<Error>& error() const { return error_; }
+
+ private:
+  void load(std::optional<RecordingReader::Chunk> chunk);
+
+  std::shared_ptr<const RecordingReader> reader_;
+  std::optional<RecordingReader::Chunk> chunk_;
+  std::vector<SoundPacket> packets_;
   std::size_t next_ = 0;
   std::optional<Error> error_;
 };

@@ -35,6 +35,19 @@ class Cursor : public streams::FrameCursor {
   const Requantizer& requantize_;
 };
 
+class Sound : public streams::SoundCursor {
+ public:
+  Sound(SharedReader reader, std::uint32_t ms) : cursor_(std::move(reader), ms) {}
+  [[nodiscard]] const SoundPacket* packet() const override { return cursor_.packet(); }
+  void advance() override { cursor_.advance(); }
+
+ private:
+  RecordingSoundCursor cursor_;
+};
+
+/// Of a time in a recording: whole ms, not before it.
+std::uint32_t from_ms(double ms) { return static_cast<std::uint32_t>(std::ceil(std::max(ms, 0.0))); }
+
 class RecordingSource : public streams::FrameSource {
  public:
   RecordingSource(SharedReader reader, std::string name, const Requantizer& requantize)
@@ -50,7 +63,10 @@ class RecordingSource : public streams::FrameSource {
     return frame && *frame ? requantize_((*frame)->state) : FaceFrame{};
   }
   [[nodiscard]] std::unique_ptr<streams::FrameCursor> frames_from(double ms) const override {
-    return std::make_unique<Cursor>(reader_, static_cast<std::uint32_t>(std::ceil(std::max(ms, 0.0))), requantize_);
+    return std::make_unique<Cursor>(reader_, from_ms(ms), requantize_);
+  }
+  [[nodiscard]] std::unique_ptr<streams::SoundCursor> sound_from(double ms) const override {
+    return std::make_unique<Sound>(reader_, from_ms(ms));
   }
   [[nodiscard]] std::size_t bytes() const override {
     return reader_->whole_bytes() + max_chunk_frames * sizeof(RecordingFrame);

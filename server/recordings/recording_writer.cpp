@@ -74,7 +74,7 @@ Status RecordingWriter::add(const Frames& batch) {
       lost_before_ = static_cast<std::uint32_t>(std::min<std::uint64_t>(missing, UINT32_MAX));
     }
     const std::uint64_t time = std::max(last_time_, batch.media_time + frame.time);
-    if (is_first) first_time_ = time;
+    if (is_first) begin_at(time);
     if (time - first_time_ > max_recording_ms)
       return Error{ErrorCode::out_of_range, "", "a recording is limited to one day"};
     waiting_.push_back({sequence, time, frame.state});
@@ -84,11 +84,47 @@ Status RecordingWriter::add(const Frames& batch) {
   return Unit{};
 }
 
+void RecordingWriter::begin_at(std::uint64_t media_time) {
+  first_time_ = media_time;
+  const auto first = std::find_if(waiting_sound_.begin(), waiting_sound_.end(),
+                                  [&](const SoundPacket& sound) { return sound.media_time >= media_time; });
+  drop_sound(static_cast<std::size_t>(first - waiting_sound_.begin()));
+}
+
+void RecordingWriter::drop_sound(std::size_t count) {
+  const auto end = waiting_sound_.begin() + static_cast<std::ptrdiff_t>(count);
+  for (auto one = waiting_sound_.begin(); one != end; ++one) waiting_sound_bytes_ -= sound_message_bytes(*one);
+  waiting_sound_.erase(waiting_sound_.begin(), end);
+}
+
+Status RecordingWriter::add(const SoundPacket& sound) {
+  const bool has_begun = last_sequence_ != 0;
+  const auto earliest = has_begun ? std::max(first_time_, last_sound_time_) : last_sound_time_;
+  if (sound.media_time < earliest) return Unit{};
+  if (has_begun && sound.media_time - first_time_ > max_recording_ms) return Unit{};  // the frames end the recording
+  if (waiting_sound_.size() == max_chunk_frames ||
+      waiting_sound_bytes_ + sound_message_bytes(sound) > max_sound_chunk_bytes) {
+    if (!has_begun)
+      drop_sound(waiting_sound_.size() / 2 + 1);
+    else if (auto status = flush(); !status)
+      return status;
+  }
+  waiting_sound_.push_back(sound);
+  waiting_sound_bytes_ += sound_message_bytes(sound);
+  last_sound_time_ = sound.media_time;
+  return Unit{};
+}
+
 Status RecordingWriter::flush() {
   if (broken_) return Error{ErrorCode::io, "", "the recording cannot be written any more"};
-  if (waiting_.empty()) return Unit{};
-  const auto chunk = encode_chunk(waiting_, lost_before_);
-  auto status = write_at(descriptor_, durable_.bytes, chunk);
+  if (last_sequence_ == 0 || (waiting_.empty() && waiting_sound_.empty())) return Unit{};
+  std::vector<std::uint8_t> chunks;
+  if (!waiting_.empty()) chunks = encode_chunk(waiting_, lost_before_);
+  if (!waiting_sound_.empty()) {
+    const auto sound = encode_sound_chunk(waiting_sound_);
+    chunks.insert(chunks.end(), sound.begin(), sound.end());
+  }
+  auto status = write_at(descriptor_, durable_.bytes, chunks);
   if (status && ::fdatasync(descriptor_) != 0) status = io_error("a recording cannot be made durable");
   if (!status) {
     // After a failed sync it is unknown what is durable: only what was durable before counts.
@@ -96,7 +132,10 @@ Status RecordingWriter::flush() {
     if (::ftruncate(descriptor_, static_cast<off_t>(durable_.bytes)) == 0) ::fdatasync(descriptor_);
     return status;
   }
-  durable_.bytes += chunk.size();
+  durable_.bytes += chunks.size();
+  durable_.sound_packets += waiting_sound_.size();
+  drop_sound(waiting_sound_.size());
+  if (waiting_.empty()) return Unit{};
   durable_.frames += waiting_.size();
   durable_.lost += lost_before_;
   durable_.media_time = first_time_;
@@ -112,7 +151,7 @@ Result<RecordingProgress> repair_recording(const std::filesystem::path& path) {
   if (!bytes) return bytes.error();
   const auto reader = RecordingReader::open(*bytes, Check::everything);
   if (!reader) return reader.error();
-  if (reader->torn_bytes() > chunk_head_bytes + max_chunk_bytes)
+  if (reader->torn_bytes() > max_written_at_once)
     return Error{ErrorCode::mismatch, "byte " + std::to_string(reader->whole_bytes()),
                  reader->torn_reason() + ", and more follows"};
   if (reader->torn_bytes() > 0) {
@@ -130,6 +169,7 @@ Result<RecordingProgress> repair_recording(const std::filesystem::path& path) {
   progress.frames = reader->frames();
   progress.lost = reader->lost();
   progress.bytes = reader->whole_bytes();
+  progress.sound_packets = reader->sound_packets();
   progress.media_time = reader->begin();
   progress.duration = reader->duration();
   if (const auto last = reader->at(reader->duration()); last && *last) progress.sequence = (*last)->sequence;

@@ -17,12 +17,13 @@ struct RecordingProgress {
   std::uint64_t media_time = 0;  ///< of the first frame, on the stream's clock
   std::uint32_t duration = 0;    ///< time of the last frame
   std::uint64_t sequence = 0;    ///< of the last frame; 0: none
+  std::uint64_t sound_packets = 0;
 
   friend bool operator==(const RecordingProgress&, const RecordingProgress&) = default;
 };
 
-/// Writes one recording. Frames are gathered and written as a chunk by flush() or when the chunk is full. They are
-/// durable when flush() returns. One thread.
+/// Writes one recording. Frames and packets of sound are gathered and written as chunks by flush() or when a chunk is
+/// full. They are durable when flush() returns. One thread.
 class RecordingWriter {
  public:
   /// Creates the file, which must not exist, with its header chunk; durable, with its folder. Errors: io.
@@ -35,6 +36,9 @@ class RecordingWriter {
   /// by that of the frame before. Errors: io (the durable part stays valid); out_of_range after one day: then no more
   /// frames are accepted.
   Status add(const Frames& batch);
+  /// Adds a packet of sound. Left out are a packet before the first frame, where the recording begins, and one that
+  /// does not follow the packet before it. Errors: io.
+  Status add(const SoundPacket& sound);
   Status flush();
 
   /// The durable part; add() changes it only when a chunk is full.
@@ -46,11 +50,15 @@ class RecordingWriter {
 
  private:
   RecordingWriter(int descriptor, std::uint64_t bytes);
-  Status write(const std::vector<std::uint8_t>& bytes);
+  void begin_at(std::uint64_t media_time);
+  void drop_sound(std::size_t count);
 
   const int descriptor_;
   RecordingProgress durable_;
   std::vector<RecordingFrame> waiting_;
+  std::vector<SoundPacket> waiting_sound_;  ///< before the first frame: those that may follow it
+  std::size_t waiting_sound_bytes_ = 0;     ///< in a chunk
+  std::uint64_t last_sound_time_ = 0;
   std::uint32_t lost_before_ = 0;    ///< frames lost before those that are not written yet
   std::uint64_t last_sequence_ = 0;  ///< of the last frame added
   std::uint64_t last_time_ = 0, first_time_ = 0;
@@ -58,8 +66,8 @@ class RecordingWriter {
 };
 
 /// Truncates the file of a killed process after its last complete chunk; durable. Returns the progress of the result.
-/// Errors: like RecordingReader::open; mismatch when more than one chunk would be removed: that is damage and not a
-/// torn end, and the file is not changed.
+/// Errors: like RecordingReader::open; mismatch when more would be removed than is written at once: that is damage and
+/// not a torn end, and the file is not changed.
 Result<RecordingProgress> repair_recording(const std::filesystem::path& path);
 
 }  // namespace semblante::recordings

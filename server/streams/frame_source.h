@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 
@@ -19,6 +18,16 @@ class FrameCursor {
   /// frame.
   [[nodiscard]] virtual std::optional<double> time() const = 0;
   [[nodiscard]] virtual FaceFrame frame() const = 0;
+  virtual void advance() = 0;
+};
+
+/// Iterates over the sound of a source, in order of time. One thread.
+class SoundCursor {
+ public:
+  virtual ~SoundCursor() = default;
+  /// The current packet, with its time in ms after the beginning of the source; null after the last one. Valid until
+  /// advance().
+  [[nodiscard]] virtual const SoundPacket* packet() const = 0;
   virtual void advance() = 0;
 };
 
@@ -40,9 +49,8 @@ class FrameSource {
   /// For a source whose frames have their own times: the frames from the first one at or after `ms` on. Each is played
   /// at its time, none is skipped or interpolated. Null: the source is played at a rate.
   [[nodiscard]] virtual std::unique_ptr<FrameCursor> frames_from(double /*ms*/) const { return nullptr; }
-  /// Its sound: packets with the time of each, ms after the beginning of the source, increasing. Valid as long as the
-  /// source. It is heard once, also of a loop.
-  [[nodiscard]] virtual std::span<const SoundPacket> sound() const { return {}; }
+  /// Its sound from the first packet at or after `ms` on; null: it has none. It is heard once, also of a loop.
+  [[nodiscard]] virtual std::unique_ptr<SoundCursor> sound_from(double /*ms*/) const { return nullptr; }
   /// Approximate memory use.
   [[nodiscard]] virtual std::size_t bytes() const = 0;
 };

@@ -1,5 +1,6 @@
 #include "server/streams/performance_source.h"
 
+#include <algorithm>
 #include <cassert>
 #include <utility>
 
@@ -9,6 +10,16 @@
 
 namespace semblante::streams {
 namespace {
+
+class Sound : public SoundCursor {
+ public:
+  explicit Sound(std::span<const SoundPacket> packets) : packets_(packets) {}
+  [[nodiscard]] const SoundPacket* packet() const override { return packets_.empty() ? nullptr : packets_.data(); }
+  void advance() override { packets_ = packets_.subspan(1); }
+
+ private:
+  std::span<const SoundPacket> packets_;
+};
 
 class PerformanceSource : public FrameSource {
  public:
@@ -21,7 +32,7 @@ class PerformanceSource : public FrameSource {
     return quantized(performance_.frame_at(ms, played_ms), steps_);
   }
 
-  [[nodiscard]] std::span<const SoundPacket> sound() const override { return sound_; }
+  [[nodiscard]] std::unique_ptr<SoundCursor> sound_from(double ms) const override { return packets_from(sound_, ms); }
   [[nodiscard]] std::size_t bytes() const override {
     std::size_t bytes = performance_.bytes();
     for (const auto& packet : sound_) bytes += sizeof(packet) + packet.packet.capacity();
@@ -39,6 +50,12 @@ class PerformanceSource : public FrameSource {
 std::shared_ptr<const FrameSource> make_performance_source(Performance performance, const QuantizerSteps& steps,
                                                            std::vector<SoundPacket> sound) {
   return std::make_shared<PerformanceSource>(std::move(performance), steps, std::move(sound));
+}
+
+std::unique_ptr<SoundCursor> packets_from(std::span<const SoundPacket> packets, double ms) {
+  const auto first = std::find_if(packets.begin(), packets.end(),
+                                  [ms](const SoundPacket& one) { return static_cast<double>(one.media_time) >= ms; });
+  return std::make_unique<Sound>(packets.subspan(static_cast<std::size_t>(first - packets.begin())));
 }
 
 std::shared_ptr<const FrameSource> demo_source() {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "core/performance/performance.h"
@@ -9,12 +10,16 @@
 
 namespace semblante::streams {
 
-/// Plays a performance. `steps` are the quantizer steps of the stream that plays it; `sound`: see FrameSource::sound().
+/// Plays a performance. `steps` are the quantizer steps of the stream that plays it; `sound`: its packets, see
+/// FrameSource::sound_from().
 std::shared_ptr<const FrameSource> make_performance_source(Performance performance,
                                                            const QuantizerSteps& steps = standard_quantizers(),
                                                            std::vector<SoundPacket> sound = {});
 
 /// The source of the stream `demo`: the embedded document of demo_document.h.
 std::shared_ptr<const FrameSource> demo_source();
+
+/// Iterates over packets, which outlive the cursor, from the first at or after `ms` on.
+std::unique_ptr<SoundCursor> packets_from(std::span<const SoundPacket> packets, double ms);
 
 }  // namespace semblante::streams

@@ -15,13 +15,6 @@ double ms_between(Player::Clock::time_point from, Player::Clock::time_point to) 
 /// A packet that is later than this is left out, as frames are.
 constexpr std::chrono::milliseconds latest_sound{200};
 
-/// Index of the first packet at or after `ms`.
-std::size_t first_sound(std::span<const SoundPacket> sound, double ms) {
-  const auto first = std::find_if(sound.begin(), sound.end(),
-                                  [ms](const SoundPacket& one) { return static_cast<double>(one.media_time) >= ms; });
-  return static_cast<std::size_t>(first - sound.begin());
-}
-
 }  // namespace
 
 Player::Player(std::string id, std::shared_ptr<Stream> stream, std::uint64_t ticket,
@@ -35,8 +28,8 @@ Player::Player(std::string id, std::shared_ptr<Stream> stream, std::uint64_t tic
       end_(options.loop || source_->duration() <= 0.0 ? std::numeric_limits<double>::infinity()
                                                       : std::max(0.0, source_->duration() - options.from)),
       next_(begin),
-      next_sound_(first_sound(source_->sound(), options.from)),
       frames_(source_->frames_from(options.from)),
+      sound_(source_->sound_from(options.from)),
       rounds_ms_(-options.from) {}
 
 Player::Clock::time_point Player::time_of(double played_ms) const {
@@ -55,15 +48,15 @@ void Player::play(Clock::time_point now) {
 }
 
 Player::Clock::time_point Player::next_sound_time() const {
-  const auto sound = source_->sound();
-  if (finished_ || next_sound_ >= sound.size()) return Clock::time_point::max();
-  return time_of(static_cast<double>(sound[next_sound_].media_time) - options_.from);
+  const auto* sound = finished_ || !sound_ ? nullptr : sound_->packet();
+  if (sound == nullptr) return Clock::time_point::max();
+  return time_of(static_cast<double>(sound->media_time) - options_.from);
 }
 
 void Player::play_sound(Clock::time_point now) {
   for (auto when = next_sound_time(); when <= now; when = next_sound_time()) {
-    const auto& packet = source_->sound()[next_sound_++].packet;
-    if (now - when <= latest_sound) stream_->publish_sound(ticket_, when, packet);
+    if (now - when <= latest_sound) stream_->publish_sound(ticket_, when, sound_->packet()->packet);
+    sound_->advance();
   }
 }
 

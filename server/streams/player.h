@@ -68,9 +68,9 @@ class Player {
   const Clock::time_point begin_;
   double end_;              ///< ms after begin_; infinite when looped or endless
   Clock::time_point next_;  ///< frame
-  std::size_t next_sound_;  ///< index of the next packet
   std::uint64_t frame_ = 0;
   std::unique_ptr<FrameCursor> frames_;  ///< null: played at a rate
+  std::unique_ptr<SoundCursor> sound_;   ///< null: it has none
   double rounds_ms_ = 0.0;               ///< length of the loop's earlier rounds, minus options_.from
   bool finished_ = false;
 };

@@ -92,7 +92,9 @@ StreamCounts Stream::all_counts() const {
 
 Header Stream::header() const {
   const std::lock_guard lock(mutex_);
-  return stream_header(made_, log_.taken());
+  auto header = stream_header(made_, log_.taken());
+  header.sound = stream_sound;
+  return header;
 }
 
 Header Stream::header_for(bool recovered, bool sound) const {
@@ -212,7 +214,9 @@ void Stream::publish_sound(Ticket ticket, Clock::time_point when, const std::vec
   const std::lock_guard lock(mutex_);
   if (ended_ || !sources_.holds(ticket)) return;
   ++counts_.sound_packets;
-  fan_out_.push_sound({media_time_at(began_, when), packet}, when);
+  SoundPacket sound{media_time_at(began_, when), packet};
+  if (listener_) listener_->heard(made_.id, made_.epoch, sound);
+  fan_out_.push_sound(std::move(sound), when);
   want(next_work(Clock::now()));
 }
 

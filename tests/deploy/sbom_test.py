@@ -14,7 +14,7 @@ PURPOSES = {"APPLICATION", "LIBRARY", "CONTAINER", "OTHER"}
 LICENCE = re.compile(r"[A-Za-z0-9.-]+( (WITH|OR|AND) [A-Za-z0-9.-]+)*")
 # Other people's code that #includes and imports name, by what they begin with, and the component that must be listed.
 INCLUDED = {"boost/": "libboost", "nlohmann/": "nlohmann-json3-dev", "glm/": "libglm-dev", "CLI/": "libcli11-dev", "tiny_gltf.h": "libtinygltf-dev",
-            "stb/": "libstb-dev", "openssl/": "libssl", "opus.h": "libopus", "samplerate.h": "libsamplerate", "qrencode.h": "libqrencode", "sqlite3.h": "libsqlite3", "zlib.h": "zlib1g", "zip.h": "libzip", "webp/": "libwebp",
+            "stb/": "libstb-dev", "openssl/": "libssl", "opus.h": "libopus", "ogg/": "libogg", "samplerate.h": "libsamplerate", "qrencode.h": "libqrencode", "sqlite3.h": "libsqlite3", "zlib.h": "zlib1g", "zip.h": "libzip", "webp/": "libwebp",
             "meshoptimizer.h": "libmeshoptimizer", "draco/": "libdraco", "OpenMesh/": "libopenmesh"}
 # A program of its own, under the licence of its library; in a package of its own.
 APART = "server/voice/espeak"

@@ -1,7 +1,9 @@
 #include <cstdlib>
+#include <sstream>
 #include <zlib.h>
 
 #include "protocol/cpp/byte_io.h"
+#include "server/recordings/recording_export.h"
 #include "server/recordings/recording_reader.h"
 
 using namespace semblante;
@@ -21,6 +23,9 @@ void mend(std::vector<std::uint8_t>& bytes) {
   }
 }
 
+/// A longer pause in the sound takes more time than it teaches.
+constexpr std::uint64_t most_exported_ms = 60'000;
+
 void walk(std::vector<std::uint8_t> bytes, Check check) {
   const auto reader = RecordingReader::open(bytes_in_memory(std::move(bytes)), check);
   if (!reader) return;
@@ -34,6 +39,15 @@ void walk(std::vector<std::uint8_t> bytes, Check check) {
   }
   if (check == Check::everything && (cursor.error() || frames != reader->frames() || time != reader->duration()))
     std::abort();
+  std::uint64_t packets = 0, sound_time = 0;
+  RecordingSoundCursor sound(shared, 0);
+  for (; sound.packet() != nullptr; sound.advance(), ++packets) {
+    if (sound.packet()->media_time < sound_time) std::abort();
+    sound_time = sound.packet()->media_time;
+  }
+  if (check == Check::everything && (sound.error() || packets != reader->sound_packets())) std::abort();
+  std::ostringstream ogg;
+  if (sound_time < most_exported_ms) static_cast<void>(export_sound(shared, {}, ogg).ok());
   const auto middle = reader->at(reader->duration() / 2);
   if (check == Check::everything && (!middle || middle->has_value() != (frames > 0))) std::abort();
 }

@@ -301,6 +301,31 @@ TEST_F(RecorderTest, AfterAKill_WhatWasDurableIsKept_AndDamageIsSaid) {
   EXPECT_TRUE(std::filesystem::exists(folder_.file("recordings") / "nobodys.srec")) << "not the recorder's to remove";
 }
 
+TEST_F(RecorderTest, Sound_IsDurableWithTheFramesOfItsTime) {
+  begin();
+  const auto record = start(2000);
+  const std::vector<std::uint8_t> packet = {0x18, 1, 2, 3};
+  recorder_->heard("talk", 7, {5000, packet});  // before the first frame
+  recorder_->taken("talk", 7, {42, 5010, {{0, {}}}});
+  recorder_->heard("talk", 7, {5010, packet});
+  recorder_->heard("talk", 8, {5060, packet});  // of another stream
+  recorder_->heard("walk", 7, {5060, packet});
+  recorder_->heard("talk", 7, {5070, packet});
+  recorder_->heard("talk", 7, {7011, packet});  // beyond the duration that was asked for
+  const auto times = [&] {
+    std::vector<std::uint64_t> found;
+    const auto reader = RecordingReader::open(*open_bytes(recorder_->path_of(record.id)), Check::everything);
+    RecordingSoundCursor cursor(std::make_shared<const RecordingReader>(*reader), 0);
+    for (; cursor.packet() != nullptr; cursor.advance()) found.push_back(cursor.packet()->media_time);
+    return found;
+  };
+  const std::vector<std::uint64_t> expected = {0, 60};
+  EXPECT_TRUE(testing::eventually([&] { return times() == expected; })) << "while it runs";
+  EXPECT_EQ(recorder_->find(record.id)->record.frames, 1U);
+  recorder_->stop(record.id);
+  EXPECT_EQ(times(), expected);
+}
+
 TEST_F(RecorderTest, ManyThreads_LoseNothing) {
   begin();
   const auto record = start();

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "protocol/cpp/json_codec.h"
+#include "server/streams/performance_source.h"
 #include "server/streams/player.h"
 #include "server/streams/stream.h"
 #include "server/streams/stream_header.h"
@@ -179,7 +180,7 @@ class Speaking : public FrameSource {
   [[nodiscard]] std::string name() const override { return ""; }
   [[nodiscard]] double duration() const override { return 400.0; }
   [[nodiscard]] FaceFrame frame_at(double, double) const override { return {}; }
-  [[nodiscard]] std::span<const SoundPacket> sound() const override { return sound_; }
+  [[nodiscard]] std::unique_ptr<SoundCursor> sound_from(double ms) const override { return packets_from(sound_, ms); }
   [[nodiscard]] std::size_t bytes() const override { return 1000; }
 
  private:

@@ -353,6 +353,8 @@ export const portuguese = {
   'GLB clip': 'Clipe GLB',
   'The open head with its skin and one animation': 'A cabeça aberta com sua pele e uma animação',
   Frames: 'Quadros',
+  Sound: 'Som',
+  'The sound, Ogg/Opus, on the clock of the GLB clip': 'O som, Ogg/Opus, no relógio do clipe GLB',
   'Every frame, JSON': 'Todos os quadros, JSON',
   'ended with its stream': 'terminou com seu fluxo',
   'ended at the maximum duration': 'terminou na duração máxima',

@@ -649,7 +649,7 @@ export interface paths {
         put?: never;
         /**
          * Play a recording into the stream, from now on
-         * @description Every frame once, at its own distance from the others: the same states at the same relative media times. Otherwise as a performance; it is seen and stopped at the same address.
+         * @description Every frame once, at its own distance from the others: the same states at the same relative media times, and its sound at the same distance from them. Otherwise as a performance; it is seen and stopped at the same address.
          */
         post: operations["playRecording"];
         delete?: never;
@@ -713,7 +713,7 @@ export interface paths {
         put?: never;
         /**
          * The face of the stream says a text, or a stored speech, from now on
-         * @description As a performance: while it speaks it is the stream's one source. Its sound is heard by the subscribers that asked for sound (protocol/SPEC.md, 2.1); the sound of a stored speech is also at its own address. Recordings of the stream have no sound.
+         * @description As a performance: while it speaks it is the stream's one source. Its sound is heard by the subscribers that asked for sound (protocol/SPEC.md, 2.1); the sound of a stored speech is also at its own address. Recordings of the stream keep it.
          */
         post: operations["speakIntoStream"];
         delete?: never;
@@ -913,7 +913,7 @@ export interface paths {
         };
         /**
          * What was recorded, in a format of choice
-         * @description performance: gives the recorded levels at the recorded times. fap: in whole FAP units. arkit-csv: a take as Live Link Face writes it. frames-json: the body of POST /v1/streams/{id}/frames. glb: a face with its skin and one animation.
+         * @description performance: gives the recorded levels at the recorded times. fap: in whole FAP units. arkit-csv: a take as Live Link Face writes it. frames-json: the body of POST /v1/streams/{id}/frames. glb: a face with its skin and one animation. opus: the sound as Ogg/Opus, with silence where there was none; its time 0 is that of the other formats with the same `from`, so that a glb and its opus are played together. 409 without sound.
          */
         get: operations["getRecordingContent"];
         put?: never;
@@ -2323,6 +2323,7 @@ export interface components {
                 "text/plain": string;
                 "text/csv": string;
                 "model/gltf-binary": unknown;
+                "audio/ogg": unknown;
                 "application/octet-stream": unknown;
             };
         };
@@ -2374,7 +2375,7 @@ export interface components {
         /** @description From whoever publishes (told `replaced` and closed) or plays; otherwise that is a conflict */
         takeOver: boolean;
         /** @description recording: the file itself, by Range if wanted; see server/recordings/README.md */
-        contentFormat: "performance" | "fap" | "arkit-csv" | "frames-json" | "glb" | "recording";
+        contentFormat: "performance" | "fap" | "arkit-csv" | "frames-json" | "glb" | "opus" | "recording";
         /** @description ms: where the part begins; the face that holds there comes first, at time 0 */
         contentFrom: number;
         /** @description ms: where it ends */

@@ -9,6 +9,7 @@ const formats: readonly [RecordingFormat, string, string][] = [
   ['fap', '.fap', t('A .fap file, in whole FAP units')],
   ['arkit-csv', t('ARKit CSV'), t('A take in the format of Live Link Face')],
   ['glb', t('GLB clip'), t('The open head with its skin and one animation')],
+  ['opus', t('Sound'), t('The sound, Ogg/Opus, on the clock of the GLB clip')],
   ['frames-json', t('Frames'), t('Every frame, JSON')],
 ];
 

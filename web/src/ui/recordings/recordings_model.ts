@@ -19,6 +19,7 @@ const endings: Record<RecordingFormat, string> = {
   fap: '.fap',
   'arkit-csv': '.csv',
   glb: '.glb',
+  opus: '.opus',
   'frames-json': '.frames.json',
 };
 
