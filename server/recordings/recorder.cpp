@@ -314,19 +314,15 @@ void Recorder::run() {
 
 std::string_view Recorder::write(Running& running, const Queue& queue, bool flush) {
   auto& writer = *running.writer;
-  std::string_view reason;
-  // Sound first: a chunk of frames that is full is written with the sound of its time.
-  for (const auto& sound : queue.sound) {
-    if (reason = beyond_a_limit(running); !reason.empty()) break;
-    const auto first = writer.first_media_time();
-    if (first && sound->media_time > *first + running.record.max_duration.value_or(max_recording_ms)) continue;
-    if (const auto added = writer.add(*sound); !added) reason = write_failure(running, added.error());
-    if (!reason.empty()) break;
-  }
+  // Sound first: a chunk of frames that is full is written with the sound of its time. But a recording begins with its
+  // first frame, from which the duration of the sound counts too.
+  const bool has_begun = writer.first_media_time().has_value();
+  std::string_view reason = has_begun ? write_sound(running, queue) : std::string_view();
   for (const auto& batch : queue.batches) {
     if (!reason.empty()) break;
     reason = write_batch(running, *batch);
   }
+  if (!has_begun && reason.empty()) reason = write_sound(running, queue);
   if (flush || !reason.empty()) {
     running.waiting_since.reset();
     if (reason.empty() && running.has_room && !running.has_room()) reason = ended::max_token_bytes;
@@ -335,6 +331,17 @@ std::string_view Recorder::write(Running& running, const Queue& queue, bool flus
   }
   publish_progress(running);
   return reason;
+}
+
+std::string_view Recorder::write_sound(Running& running, const Queue& queue) {
+  auto& writer = *running.writer;
+  for (const auto& sound : queue.sound) {
+    if (const auto reason = beyond_a_limit(running); !reason.empty()) return reason;
+    const auto first = writer.first_media_time();
+    if (first && sound->media_time > *first + running.record.max_duration.value_or(max_recording_ms)) continue;
+    if (const auto added = writer.add(*sound); !added) return write_failure(running, added.error());
+  }
+  return {};
 }
 
 std::string_view Recorder::write_batch(Running& running, const Frames& batch) {

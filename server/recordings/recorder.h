@@ -135,7 +135,8 @@ class Recorder : public streams::BatchListener {
   void run();
   /// Writes the queued batches; returns the reason why the recording must end, or "".
   std::string_view write(Running& running, const Queue& queue, bool flush);
-  /// Writes frames; returns the reason as above.
+  /// Add what is queued to the file; return the reason as above.
+  std::string_view write_sound(Running& running, const Queue& queue);
   std::string_view write_batch(Running& running, const Frames& batch);
   static std::string_view write_failure(const Running& running, const Error& error);
   std::string_view beyond_a_limit(const Running& running) const;

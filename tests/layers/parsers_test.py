@@ -32,6 +32,7 @@ REACHED = {
     "read_performance_faces": "performance",
     "read_ply": "ply",
     "read_recording_faces": "recording",
+    "read_sound_chunk": "recording",
     "read_stl": "stl",
     "read_xml_tag": "marked_ssml",
     "webp_size": "image",
