@@ -321,8 +321,7 @@ TEST_F(RecorderTest, Sound_IsDurableWithTheFramesOfItsTime) {
   };
   const std::vector<std::uint64_t> expected = {0, 60};
   EXPECT_TRUE(testing::eventually([&] { return times() == expected; })) << "while it runs";
-  EXPECT_EQ(recorder_->find(record.id)->record.frames, 1U);
-  recorder_->stop(record.id);
+  EXPECT_EQ(recorder_->stop(record.id)->frames, 1U);
   EXPECT_EQ(times(), expected);
 }
 
