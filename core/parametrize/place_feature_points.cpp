@@ -12,6 +12,9 @@
 #include "core/anatomy/part_roles.h"
 #include "core/anatomy/point_lookup.h"
 #include "core/anatomy/rim_sides.h"
+#include "core/geometry/insert_vertices.h"
+#include "core/geometry/nearest_weights.h"
+#include "core/geometry/stitch.h"
 
 namespace semblante {
 namespace {
@@ -19,7 +22,7 @@ namespace {
 // All relative to the diagonal of the model's box.
 constexpr double disagrees = 1e-3;  ///< a vertex this far from the position given with it contradicts it
 constexpr double at_place = 1e-4;   ///< room for positions printed with few digits
-constexpr double may_snap = 0.05;
+constexpr double may_project = 0.05;
 
 std::string pointer_to(FeaturePointId id) { return "/points/" + to_string(id); }
 
@@ -85,13 +88,19 @@ class Placement {
     return best;
   }
 
-  /// With a side, a vertex certainly on the other side is replaced by the nearest one on its own.
-  [[nodiscard]] std::optional<std::uint32_t> nearest_vertex(const glm::dvec3& position,
-                                                            const OwnSide* own_side = nullptr) const {
-    const auto nearest = nearest_of(position, [](std::uint32_t) { return true; });
-    if (!nearest || own_side == nullptr || !own_side->is_opposite(surface_.surface_of[*nearest])) return nearest;
-    const auto own = nearest_of(position, [&](std::uint32_t v) { return own_side->has(surface_.surface_of[v]); });
-    return own && distance(*own, position) <= may_snap * diagonal_ ? own : nearest;
+  /// The point at the place of the surface nearest to `position`: at a vertex if one is meant, else between vertices.
+  /// Of places equally near, that of the part with the most vertices. With a side, not on a triangle that is certainly
+  /// on the other side. Empty: no place within `may_project`.
+  [[nodiscard]] std::optional<FeaturePoint> nearest_place(FeaturePointId id, const glm::dvec3& position,
+                                                          const OwnSide* own_side) const {
+    auto nearest = nearest_on_triangles(position, own_side);
+    if (!nearest && own_side != nullptr) nearest = nearest_on_triangles(position, nullptr);
+    if (!nearest) return std::nullopt;
+    const Triangle& t = model_.triangles[nearest->triangle];
+    const auto corner = meant_corner(nearest->shares, at(t[0]), at(t[1]), at(t[2]));
+    if (corner) return at_vertex(id, t[*corner]);
+    nearest->shares = moved_to_edge(nearest->shares);
+    return FeaturePoint{id, std::nullopt, glm::vec3(position_of(*nearest)), nearest};
   }
 
   [[nodiscard]] FeaturePoint at_vertex(FeaturePointId id, std::uint32_t vertex) const {
@@ -104,17 +113,50 @@ class Placement {
     return !surface_.steps_from(surface_.surface_of[vertex]).empty();
   }
 
-  template <class Filter>
-  [[nodiscard]] std::optional<std::uint32_t> nearest_of(const glm::dvec3& position, Filter filter) const {
-    std::optional<std::uint32_t> best;
-    double least = std::numeric_limits<double>::infinity();
-    for (std::uint32_t v = 0; v < model_.positions.size(); ++v) {
-      const double here = distance(v, position);
-      if (here >= least || !is_used(v) || !filter(v)) continue;
-      least = here;
-      best = v;
+  [[nodiscard]] glm::dvec3 at(std::uint32_t vertex) const { return glm::dvec3(model_.positions[vertex]); }
+
+  [[nodiscard]] glm::dvec3 position_of(const TrianglePlace& place) const {
+    const Triangle& t = model_.triangles[place.triangle];
+    return place.shares.x * at(t[0]) + place.shares.y * at(t[1]) + place.shares.z * at(t[2]);
+  }
+
+  [[nodiscard]] std::optional<TrianglePlace> nearest_on_triangles(const glm::dvec3& position,
+                                                                  const OwnSide* own_side) const {
+    struct Candidate {
+      TrianglePlace place;
+      double away;
+      std::size_t part_size;
+    };
+    std::vector<Candidate> candidates;  // not farther than the nearest by more than at_place
+    double least = may_project * diagonal_;
+    for (std::uint32_t i = 0; i < model_.triangles.size(); ++i) {
+      const Triangle& t = model_.triangles[i];
+      const glm::dvec3 a = at(t[0]);
+      const glm::dvec3 b = at(t[1]);
+      const glm::dvec3 c = at(t[2]);
+      const double reach = least + at_place * diagonal_;
+      const glm::dvec3 beyond =
+          glm::max(glm::min(glm::min(a, b), c) - position, position - glm::max(glm::max(a, b), c));
+      if (std::max({beyond.x, beyond.y, beyond.z}) > reach || !has_three_corners(t)) continue;
+      if (own_side != nullptr && std::any_of(t.begin(), t.end(), [&](std::uint32_t v) {
+            return own_side->is_opposite(surface_.surface_of[v]);
+          }))
+        continue;
+      const TrianglePlace place{i, nearest_weights(position, a, b, c)};
+      const double away = glm::distance(position, position_of(place));
+      if (away > reach) continue;
+      least = std::min(least, away);
+      const PartId part = surface_.part_of[surface_.surface_of[t[0]].value()];
+      candidates.push_back({place, away, surface_.members_of(part).size()});
     }
-    return best;
+    const Candidate* best = nullptr;
+    for (const Candidate& one : candidates) {
+      if (one.away > least + at_place * diagonal_) continue;
+      if (best == nullptr || one.part_size > best->part_size ||
+          (one.part_size == best->part_size && one.away < best->away))
+        best = &one;
+    }
+    return best == nullptr ? std::nullopt : std::optional(best->place);
   }
 
   const Model& model_;
@@ -163,9 +205,20 @@ bool was_renumbered(const Placement& placement, std::span<const MarkedPoint> mar
   return !disagreeing.empty() && every_one_found;
 }
 
-std::optional<Error> find_impossible_part(const Surface& surface, const FeaturePointSet& points,
+/// Points between vertices at the corner with the greatest share: near enough to tell part and side.
+FeaturePointSet at_corners(const Model& model, FeaturePointSet points) {
+  for (FeaturePoint& point : points) {
+    if (!point.between) continue;
+    const glm::dvec3& shares = point.between->shares;
+    const std::size_t most = shares.x >= shares.y && shares.x >= shares.z ? 0 : shares.y >= shares.z ? 1 : 2;
+    point.vertex = VertexId(model.triangles[point.between->triangle][most]);
+  }
+  return points;
+}
+
+std::optional<Error> find_impossible_part(const Model& model, const Surface& surface, const FeaturePointSet& points,
                                           std::span<const std::optional<PartRole>> roles_by_user) {
-  const std::vector<SurfacePoint> on_surface = surface_points(surface, points);
+  const std::vector<SurfacePoint> on_surface = surface_points(surface, at_corners(model, points));
   std::vector<std::optional<PartRole>> roles = roles_clear_from_points(surface, on_surface);
   for (std::size_t p = 0; p < std::min(roles.size(), roles_by_user.size()); ++p) {
     if (roles_by_user[p]) roles[p] = roles_by_user[p];
@@ -180,7 +233,7 @@ std::optional<Error> find_impossible_part(const Surface& surface, const FeatureP
     std::string what(part_role_names[static_cast<std::size_t>(*role)]);
     std::replace(what.begin(), what.end(), '_', ' ');
     return Error{ErrorCode::invalid_argument, pointer_to(point.id),
-                 "point " + to_string(point.id) + " belongs on the skin, but its vertex is on a part that is " +
+                 "point " + to_string(point.id) + " belongs on the skin, but it is on a part that is " +
                      (*role == PartRole::upper_teeth || *role == PartRole::lower_teeth ? "" : "a ") + what};
   }
   return std::nullopt;
@@ -207,7 +260,7 @@ Result<FeaturePointSet> place_feature_points(const Model& model, const Surface& 
   }
 
   FeaturePointSet points;
-  std::vector<FeaturePointId> snapped;
+  std::vector<FeaturePointId> projected;
   const auto place = [&](const MarkedPoint& point, const OwnSide* own_side) -> std::optional<Error> {
     if (point.vertex && !(positions_win && point.position)) {
       points.push_back(placement.at_vertex(point.id, *point.vertex));
@@ -223,13 +276,14 @@ Result<FeaturePointSet> place_feature_points(const Model& model, const Surface& 
     } else if (may_be_bare(point.id)) {
       points.push_back({point.id, std::nullopt, glm::vec3(position)});
     } else {
-      const std::optional<std::uint32_t> nearest = placement.nearest_vertex(position, own_side);
-      if (!nearest || placement.distance(*nearest, position) > may_snap * placement.diagonal()) {
+      auto nearest = placement.nearest_place(point.id, position, own_side);
+      if (!nearest) {
         return Error{ErrorCode::invalid_argument, pointer_to(point.id) + "/position",
                      "the position of point " + to_string(point.id) + " is not near the surface"};
       }
-      points.push_back(placement.at_vertex(point.id, *nearest));
-      snapped.push_back(point.id);
+      const double away = glm::distance(glm::dvec3(nearest->position), position);
+      if (away > disagrees * placement.diagonal()) projected.push_back(point.id);
+      points.push_back(std::move(*nearest));
     }
     return std::nullopt;
   };
@@ -242,7 +296,7 @@ Result<FeaturePointSet> place_feature_points(const Model& model, const Surface& 
     if (needs_side(point)) continue;
     if (std::optional<Error> fault = place(point, nullptr)) return std::move(*fault);
   }
-  const std::vector<SurfacePoint> anchors = surface_points(surface, points);
+  const std::vector<SurfacePoint> anchors = surface_points(surface, at_corners(model, points));
   for (const mpeg4::Opening& opening : mpeg4::openings) {
     std::optional<RimSides> sides;
     for (const MarkedPoint& point : marked) {
@@ -253,11 +307,13 @@ Result<FeaturePointSet> place_feature_points(const Model& model, const Surface& 
       if (std::optional<Error> fault = place(point, &own_side)) return std::move(*fault);
     }
   }
-  std::sort(snapped.begin(), snapped.end());
-  if (!snapped.empty()) warn("no vertex lies at the position of " + join(snapped) + "; the nearest was taken");
+  std::sort(projected.begin(), projected.end());
+  if (!projected.empty())
+    warn("the position of " + join(projected) + " is not on the surface; the nearest place on it was taken");
 
   std::sort(points.begin(), points.end(), [](const FeaturePoint& a, const FeaturePoint& b) { return a.id < b.id; });
-  if (std::optional<Error> fault = find_impossible_part(surface, points, roles_by_user)) return std::move(*fault);
+  if (std::optional<Error> fault = find_impossible_part(model, surface, points, roles_by_user))
+    return std::move(*fault);
   return points;
 }
 

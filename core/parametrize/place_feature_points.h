@@ -21,11 +21,11 @@ namespace semblante {
 /// the positions win. Otherwise the vertices win. Both cases give a warning in `warnings`.
 /// - A position alone: pupils (3.5, 3.6) stay bare positions, because they move with the eyeball and not the surface.
 ///   For the others a vertex within 1e-4 of the diagonal (of several, the one on the part with the most vertices,
-///   then the lowest file vertex). Otherwise 7.1 stays a bare position, and any other point snaps to the
-///   nearest vertex within 5 % of the diagonal, with a warning.
+///   then the lowest file vertex). Otherwise 7.1 stays a bare position, and any other point is at the nearest place of
+///   the surface within 5 % of the diagonal: at a vertex if one is meant (meant_corner), else between vertices, with
+///   `FeaturePoint::between`. A warning if that is more than 1e-3 of the diagonal away.
 /// - The position of a point of a lip or lid where the rims touch: of the vertices at its position one on its own side.
-/// Nor
-///   does it snap to a vertex on the other side. Both only if the other points determine the sides (RimSides).
+///   Nor is it on a triangle of the other side. Both only if the other points determine the sides (RimSides).
 ///
 /// Errors carry `where` = "/points/<id>" (or below it): `out_of_range` vertex, `not_finite` position, `missing` both,
 /// `invalid_argument` for a point given twice, too far from the surface, or on a part it cannot be on (a skin point on

@@ -62,11 +62,30 @@ void turn(MarkedHead& head, const glm::dmat3& turn) {
   head.turn = turn;
 }
 
+/// A point moves the vertex at it with weight 1 (Eq. 4), so a point between vertices needs one.
+void give_vertices(MarkedHead& head) {
+  std::vector<TrianglePlace> places;
+  for (const FeaturePoint& point : head.points) {
+    if (point.between) places.push_back(*point.between);
+  }
+  if (places.empty()) return;
+  Insertion insertion = insert_vertices(head.model, head.surface, places);
+  head.inserted = std::move(insertion.vertices);
+  head.surface = build_surface(head.model);
+  auto vertex = insertion.vertex_of_place.begin();
+  for (FeaturePoint& point : head.points) {
+    if (!point.between) continue;
+    point = {point.id, VertexId(*vertex), head.model.positions[*vertex]};
+    ++vertex;
+  }
+}
+
 }  // namespace
 
 Result<MarkedHead> mark_head(StandingHead standing, MarkRequest request, const Progress& progress) {
   if (auto told = report_progress(progress, 0.0, "feature points"); !told) return told.error();
-  MarkedHead head{std::move(standing), {}, std::move(request.roles_by_user), request.fapu_by_user, {}, std::nullopt};
+  MarkedHead head{std::move(standing), {}, std::move(request.roles_by_user), request.fapu_by_user, {},
+                  std::nullopt,        {}};
   if (auto placed = place(head, request); !placed) return placed.error();
   const ModelFrame before = head.frame;
   head.frame = frame_by_points(head);
@@ -81,6 +100,7 @@ Result<MarkedHead> mark_head(StandingHead standing, MarkRequest request, const P
   if (turn_upright(head.frame) == turn_upright(before)) {
     head.warnings.stance = stance_warnings(head.frame);
     warn_of_body();
+    give_vertices(head);
     return head;
   }
   turn(head, turn_between(before, head.frame));
@@ -89,6 +109,7 @@ Result<MarkedHead> mark_head(StandingHead standing, MarkRequest request, const P
                           "; it is turned upright"};
   warn_of_body();
   if (auto placed = place(head, request); !placed) return placed.error();
+  give_vertices(head);
   return head;
 }
 

@@ -6,6 +6,7 @@
 #include <glm/vec3.hpp>
 
 #include "core/types/feature_point_id.h"
+#include "core/types/triangle_place.h"
 
 namespace semblante {
 
@@ -15,6 +16,8 @@ struct FeaturePoint {
   FeaturePointId id;
   std::optional<VertexId> vertex;
   glm::vec3 position{0.0F};  ///< model units, MPEG-4 frame
+  /// Of a point between vertices that has no vertex yet: mark_head (core/pipeline) inserts one.
+  std::optional<TrianglePlace> between = std::nullopt;
 };
 
 /// The marked points of one model, each id at most once, by increasing id.

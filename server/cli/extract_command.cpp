@@ -73,8 +73,9 @@ void run(const ExtractCommand& options) {
   std::vector<glm::vec3> expression;
   if (options.target.empty()) expression = read_expression(options.expression, files.head.model);
   const MarkedHead head = place_points(std::move(files), options.head);
-  // Turned like the head.
+  // Turned like the head, with its points' vertices.
   for (glm::vec3& p : expression) p = glm::vec3(head.to_mpeg4 * glm::dvec3(p));
+  if (options.target.empty()) add_inserted(expression, head.inserted);
   const Shapes shapes =
       options.target.empty() ? Shapes{head.model.positions, std::move(expression)} : shapes_of_targets(options, head);
   std::vector<std::string> warnings = head.warnings.all();

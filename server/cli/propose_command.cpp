@@ -23,20 +23,20 @@ struct ProposeCommand {
   std::string out = "-";
 };
 
-/// In the axes of the model's file, like feature point files.
-Json to_json(const FeaturePoint& point, const glm::dmat3& from_mpeg4) {
-  const glm::dvec3 p = from_mpeg4 * glm::dvec3(point.position);
+/// In the axes of the model's file and with its vertices only, like feature point files.
+Json to_json(const FeaturePoint& point, const MarkedHead& head) {
+  const glm::dvec3 p = glm::inverse(head.to_mpeg4) * glm::dvec3(point.position);
   Json json = {{"vertex", nullptr}, {"position", {p.x, p.y, p.z}}};
-  if (point.vertex) json["vertex"] = point.vertex->value();
+  if (point.vertex && head.is_of_file(*point.vertex)) json["vertex"] = point.vertex->value();
   return json;
 }
 
-Json document(const FeaturePointSet& placed, const Proposals& proposals, const glm::dmat3& to_mpeg4) {
-  const glm::dmat3 from_mpeg4 = glm::inverse(to_mpeg4);
+Json document(const MarkedHead& head, const Proposals& proposals) {
+  const glm::dmat3& to_mpeg4 = head.to_mpeg4;
   std::array<Json, feature_point_count> by_id;
-  for (const FeaturePoint& point : placed) by_id[point.id.value()] = to_json(point, from_mpeg4);
+  for (const FeaturePoint& point : head.points) by_id[point.id.value()] = to_json(point, head);
   for (const Proposal& proposal : proposals.points) {
-    Json json = to_json(proposal.point, from_mpeg4);
+    Json json = to_json(proposal.point, head);
     json["proposed"] = true;
     json["method"] = proposal_method_names[static_cast<std::size_t>(proposal.method)];
     json["confidence"] = confidence_names[static_cast<std::size_t>(proposal.confidence)];
@@ -64,7 +64,7 @@ void run(const ProposeCommand& options) {
   const auto proposals =
       propose_feature_points(head.surface, parts, head.points, reference_heads(), head.model.neck_joints);
   if (!proposals) fail(options.head.feature_points_path, proposals.error());
-  const Json json = document(head.points, *proposals, head.to_mpeg4);
+  const Json json = document(head, *proposals);
   write_file(options.out, [&json](std::ostream& out) { out << json.dump(1) << "\n"; });
   print_warnings(head.warnings.all(), options.head.quiet);
 }

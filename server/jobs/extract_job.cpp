@@ -139,8 +139,9 @@ Result<ExtractJob::Outcome> ExtractJob::run(const Request& request, const InputF
     if (!shape) return shape.error();
     expression = std::move(*shape);
   } else {
-    // Turned like the head.
+    // Turned like the head, with its points' vertices.
     for (glm::vec3& p : expression) p = glm::vec3(head->to_mpeg4 * glm::dvec3(p));
+    add_inserted(expression, head->inserted);
   }
   const ExtractOptions options{wish.align, wish.least, wish.strength};
   auto extraction = extract_displacements(head->points, compute_fapu(head->points, head->fapu_by_user), *neutral,

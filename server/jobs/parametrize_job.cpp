@@ -59,6 +59,18 @@ Result<LevelledHead> make_head(const ParametrizeJob::Request& request, const Inp
   return level_head(std::move(*rigged), request.options.lods, part_of(progress, 0.74, 0.82));
 }
 
+/// The preview of a head that its points turned. It has the vertices of the file alone, by which users mark points, so
+/// where the points have vertices of their own the file is read again.
+Status write_turned_preview(const LevelledHead& head, const ParametrizeJob::Request& request, const InputFiles& inputs,
+                            ResultFiles& files) {
+  if (head.inserted.empty()) return files.write_preview(head, head.rig.parts);
+  auto imported = import_source(request.head.model, inputs, {});
+  if (!imported) return imported.error();
+  const auto standing = stand_head(std::move(*imported), {request.head.model.frame_wish, head.frame, {}});
+  if (!standing) return standing.error();
+  return files.write_preview(*standing, head.rig.parts);
+}
+
 }  // namespace
 
 Result<ParametrizeJob::Request> ParametrizeJob::request(const store::JobRecord& job, const JobSources& sources) const {
@@ -111,7 +123,7 @@ Result<ParametrizeJob::Outcome> ParametrizeJob::run(const Request& request, cons
     return written.error();
   if (head->turn) {
     outcome.frame.turn = rows_of(*head->turn);
-    if (auto written = files.write_preview(*head, head->rig.parts); !written) return written.error();
+    if (auto written = write_turned_preview(*head, request, inputs, files); !written) return written.error();
   }
   return outcome;
 }

@@ -16,11 +16,11 @@ namespace semblante::jobs {
 namespace {
 
 /// A proposal does not turn the stored model: its positions are in the model's frame of the request.
-store::FeaturePointRecord record_of(const Proposal& proposal, const glm::dmat3& back) {
+store::FeaturePointRecord record_of(const Proposal& proposal, const MarkedHead& head, const glm::dmat3& back) {
   store::FeaturePointRecord record;
   record.id = to_string(proposal.point.id);
   const glm::dvec3 position = back * glm::dvec3(proposal.point.position);
-  if (proposal.point.vertex)
+  if (proposal.point.vertex && head.is_of_file(*proposal.point.vertex))
     record.vertex = proposal.point.vertex->value();
   else
     record.position = {position.x, position.y, position.z};
@@ -55,7 +55,7 @@ Result<ProposeJob::Outcome> ProposeJob::run(const Request& request, const InputF
 
   Outcome outcome;
   const glm::dmat3 back = head->turn ? glm::transpose(*head->turn) : glm::dmat3(1.0);
-  for (const auto& proposal : proposals->points) outcome.proposals.push_back(record_of(proposal, back));
+  for (const auto& proposal : proposals->points) outcome.proposals.push_back(record_of(proposal, *head, back));
   for (const auto& point : proposals->not_proposed)
     outcome.not_proposed.emplace_back(to_string(point.id), point.reason);
   return outcome;

@@ -2,6 +2,7 @@
 // their point, and know nothing of vertex order, size or place.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -9,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/geometry/insert_vertices.h"
 #include "core/parametrize/surface_weights.h"
 #include "tests/oracle/literal_weights.h"
 #include "tests/property/parametrize/random_head.h"
@@ -100,6 +102,118 @@ TEST(WeightProperties, RoughMeshes_EqualTheOracle) {
     const Roughness roughness{true, true, true, true, true};
     const Model model = make_landscape(random, 8, seed % 2 == 0 ? 64 : 0, roughness);
     ASSERT_NO_FATAL_FAILURE(expect_oracle(model, mark_points(random, model, 12)));
+  }
+}
+
+/// A mesh by the positions of its triangles' corners.
+using Soup = std::vector<std::array<std::array<float, 3>, 3>>;
+
+std::array<float, 3> key_of(const glm::vec3& p) { return {p.x, p.y, p.z}; }
+
+/// Splits each triangle that has all corners with a share, as somebody who draws the mesh would.
+void draw_vertex(Soup& soup, const std::vector<std::array<float, 3>>& around, const std::array<float, 3>& vertex) {
+  Soup drawn;
+  for (const auto& triangle : soup) {
+    const auto has = [&](const auto& corner) {
+      return std::find(triangle.begin(), triangle.end(), corner) != triangle.end();
+    };
+    if (!std::all_of(around.begin(), around.end(), has)) {
+      drawn.push_back(triangle);
+      continue;
+    }
+    for (const auto& corner : around) {
+      auto part = triangle;
+      *std::find(part.begin(), part.end(), corner) = vertex;
+      drawn.push_back(part);
+    }
+  }
+  soup = std::move(drawn);
+}
+
+/// A model of the soup, one vertex a place, numbered at random.
+Model model_of(Soup soup, std::mt19937& random, std::map<std::array<float, 3>, std::uint32_t>& numbers) {
+  std::vector<std::array<float, 3>> places;
+  for (const auto& triangle : soup) places.insert(places.end(), triangle.begin(), triangle.end());
+  std::sort(places.begin(), places.end());
+  places.erase(std::unique(places.begin(), places.end()), places.end());
+  std::shuffle(places.begin(), places.end(), random);
+  std::shuffle(soup.begin(), soup.end(), random);
+  Model model;
+  for (const auto& p : places) {
+    numbers[p] = static_cast<std::uint32_t>(model.positions.size());
+    model.positions.emplace_back(p[0], p[1], p[2]);
+  }
+  for (const auto& t : soup) model.triangles.push_back({numbers[t[0]], numbers[t[1]], numbers[t[2]]});
+  return model;
+}
+
+/// Triangles without a common place.
+std::vector<std::uint32_t> separate_triangles(const Model& model, std::mt19937& random, std::size_t count) {
+  std::vector<std::uint32_t> all(model.triangles.size());
+  std::iota(all.begin(), all.end(), 0U);
+  std::shuffle(all.begin(), all.end(), random);
+  std::vector<std::uint32_t> chosen;
+  std::vector<glm::vec3> taken;
+  for (const std::uint32_t t : all) {
+    const auto is_taken = [&](std::uint32_t v) {
+      return std::find(taken.begin(), taken.end(), model.positions[v]) != taken.end();
+    };
+    if (chosen.size() == count || std::any_of(model.triangles[t].begin(), model.triangles[t].end(), is_taken)) continue;
+    chosen.push_back(t);
+    for (const std::uint32_t v : model.triangles[t]) taken.push_back(model.positions[v]);
+  }
+  return chosen;
+}
+
+TEST(WeightProperties, PointsBetweenVertices_WeighAsOnAMeshThatHadTheirVerticesFromTheStart) {
+  for (int seed = 0; seed < seeds; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(static_cast<unsigned>(seed));
+    Roughness seams;
+    seams.seams = seed % 3 == 0;
+    Model model = make_landscape(random, 9, seed % 2 == 0 ? 64 : 0, seams);
+    FeaturePointSet points = mark_points(random, model, 12);
+    Soup soup;
+    for (const Triangle& t : model.triangles)
+      soup.push_back({key_of(model.positions[t[0]]), key_of(model.positions[t[1]]), key_of(model.positions[t[2]])});
+
+    // The first points move between vertices: one in three onto an edge. Eighths are exact in float32.
+    std::vector<TrianglePlace> places;
+    for (const std::uint32_t t : separate_triangles(model, random, 5)) {
+      const glm::dvec3 inside[] = {{0.25, 0.5, 0.25}, {0.625, 0.25, 0.125}};
+      const glm::dvec3 shares = places.size() % 3 == 2 ? glm::dvec3(0.0, 0.375, 0.625) : inside[places.size() % 3];
+      std::vector<std::array<float, 3>> around;
+      glm::dvec3 position(0.0);
+      for (int c = 0; c < 3; ++c) {
+        const glm::vec3& corner = model.positions[model.triangles[t][static_cast<std::size_t>(c)]];
+        position += shares[c] * glm::dvec3(corner);
+        if (shares[c] > 0.0) around.push_back(key_of(corner));
+      }
+      draw_vertex(soup, around, key_of(glm::vec3(position)));
+      places.push_back({t, shares});
+    }
+    const std::size_t before = build_surface(model).vertex_count();
+    const Insertion inserted = insert_vertices(model, build_surface(model), places);
+    ASSERT_EQ(build_surface(model).vertex_count(), before + places.size());
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      points[i].vertex = VertexId(inserted.vertex_of_place[i]);
+      points[i].position = model.positions[inserted.vertex_of_place[i]];
+    }
+
+    std::map<std::array<float, 3>, std::uint32_t> numbers;
+    const Model drawn = model_of(soup, random, numbers);
+    FeaturePointSet on_drawn = points;
+    for (FeaturePoint& point : on_drawn) {
+      ASSERT_TRUE(numbers.contains(key_of(point.position)));
+      point.vertex = VertexId(numbers[key_of(point.position)]);
+    }
+    const WeightTable<double> ours = weights_of(model, points);
+    const WeightTable<double> theirs = weights_of(drawn, on_drawn);
+    for (std::size_t v = 0; v < model.positions.size(); ++v)
+      ASSERT_NO_FATAL_FAILURE(expect_same_row(ours, v, theirs, numbers[key_of(model.positions[v])], 1e-9));
+    for (std::size_t i = 0; i < places.size(); ++i)
+      ASSERT_EQ(row_of(ours, points[i].vertex->value()), (std::map{std::pair(points[i].id, 1.0)}));
+    ASSERT_NO_FATAL_FAILURE(expect_oracle(model, points));
   }
 }
 

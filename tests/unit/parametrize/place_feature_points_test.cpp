@@ -1,7 +1,9 @@
 #include "core/parametrize/place_feature_points.h"
 
+#include <algorithm>
 #include <limits>
 
+#include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -142,12 +144,51 @@ TEST_F(PlaceFeaturePoints, InnerPointsOffTheSurface_StayBare) {
   EXPECT_EQ(placed->at(1).vertex, std::nullopt);
 }
 
-TEST_F(PlaceFeaturePoints, OtherPointsNearTheSurface_SnapWithAWarning) {
-  const auto placed = place({at_position("2.1", {3.2, 4.1, 0.5}), at_position("8.1", {7, 2.4, 0})});
+TEST_F(PlaceFeaturePoints, PositionInsideATriangle_IsThatPlace) {
+  // The square (7, 2) is split from (7, 2) to (8, 3) or across; either way (7.5, 2.3) is inside a triangle.
+  const auto placed = place({at_position("8.1", {7.5, 2.3, 0})});
   ASSERT_TRUE(placed);
-  EXPECT_EQ(placed->at(0).vertex, VertexId(4 * 21 + 3));
+  const FeaturePoint& point = placed->at(0);
+  EXPECT_EQ(point.vertex, std::nullopt);
+  EXPECT_EQ(point.position, glm::vec3(7.5F, 2.3F, 0.0F));
+  ASSERT_TRUE(point.between);
+  glm::dvec3 there(0.0);
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_GT(point.between->shares[c], 0.0);
+    there += point.between->shares[c] *
+             glm::dvec3(model_.positions[model_.triangles[point.between->triangle][static_cast<std::size_t>(c)]]);
+  }
+  EXPECT_LT(glm::distance(there, {7.5, 2.3, 0}), 1e-6);
+  EXPECT_THAT(warnings_, IsEmpty());
+}
+
+TEST_F(PlaceFeaturePoints, PositionBesideAVertex_IsTheVertex_BesideAnEdge_OnTheEdge) {
+  const auto placed =
+      place({at_position("2.1", {3.06, 4.05, 0}), at_position("8.1", {7.5, 2.03, 0}), at_position("8.2", {3.2, 4, 0})});
+  ASSERT_TRUE(placed);
+  EXPECT_EQ(placed->at(0).vertex, VertexId(4 * 21 + 3)) << "0.08 of an edge away";
+  ASSERT_TRUE(placed->at(1).between);
+  EXPECT_EQ(placed->at(1).position.y, 2.0F) << "0.03 of the way to the other side of the triangle";
+  EXPECT_EQ(glm::min(placed->at(1).between->shares.x,
+                     glm::min(placed->at(1).between->shares.y, placed->at(1).between->shares.z)),
+            0.0);
+  EXPECT_TRUE(placed->at(2).between) << "0.2 of an edge away from the vertex";
+}
+
+TEST_F(PlaceFeaturePoints, PositionOffTheSurface_IsTheNearestPlaceOnIt_WithAWarning) {
+  const auto placed = place({at_position("2.1", {3.2, 4.5, 0.5}), at_position("8.1", {7, 2, 0.5})});
+  ASSERT_TRUE(placed);
+  EXPECT_TRUE(placed->at(0).between);
+  EXPECT_EQ(placed->at(0).position, glm::vec3(3.2F, 4.5F, 0.0F));
   EXPECT_EQ(placed->at(1).vertex, VertexId(2 * 21 + 7));
   EXPECT_THAT(warnings_, ElementsAre(HasSubstr("2.1, 8.1")));
+}
+
+TEST_F(PlaceFeaturePoints, BetweenVerticesOfAPartThatCannotBeSkin_IsRefused) {
+  const glm::vec3 inside =
+      (model_.positions[eye_ + 17] + model_.positions[eye_ + 18] + model_.positions[eye_ + 34]) / 3.0F;
+  expect_error({at_vertex("2.1", 0), at_vertex("3.5", eye_), at_position("3.1", glm::dvec3(inside))},
+               ErrorCode::invalid_argument, "/points/3.1");
 }
 
 TEST_F(PlaceFeaturePoints, VertexWithoutTriangles_IsNoPlaceForAPosition) {
@@ -189,13 +230,23 @@ TEST_F(PlaceOnAClosedMouth, AtAPlaceOfBothLips_EachPointGetsItsOwn) {
   EXPECT_EQ(vertex_of(placed, "2.8"), VertexId(mouth_.at(1, 0, false)));
 }
 
-TEST_F(PlaceOnAClosedMouth, BesideAVertex_SnapsToItsOwnLip) {
+TEST_F(PlaceOnAClosedMouth, BetweenVertices_EachPointIsOnItsOwnLip) {
   // The lips pass each other, so the place of 2.2, a little below the rim of the upper lip, is nearest to the lower
   // lip.
   for (const int column : {-1, 0, 1}) mouth_.model.positions[mouth_.at(column, 0, true)].y = -0.1F;
-  const auto placed = place({at_position("2.2", {0, 0.05, 0.02}), at_position("2.3", {0, -0.15, 0.02})});
-  EXPECT_EQ(vertex_of(placed, "2.2").value(), mouth_.at(0, 0) + 1);
-  EXPECT_EQ(vertex_of(placed, "2.3").value(), mouth_.at(0, 0));
+  const auto placed = place({at_position("2.2", {0.3, 0.05, 0.02}), at_position("2.3", {0.3, -0.15, 0.02})});
+  for (const auto& [name, upper] : {std::pair("2.2", true), std::pair("2.3", false)}) {
+    const auto point =
+        std::find_if(placed.begin(), placed.end(), [&](const FeaturePoint& one) { return one.id == fp(name); });
+    ASSERT_NE(point, placed.end());
+    ASSERT_TRUE(point->between) << name;
+    const Triangle& triangle = mouth_.model.triangles[point->between->triangle];
+    const auto is_corner = [&](std::uint32_t vertex) {
+      return std::find(triangle.begin(), triangle.end(), vertex) != triangle.end();
+    };
+    EXPECT_TRUE(is_corner(mouth_.at(0, 0, upper)) || is_corner(mouth_.at(1, 0, upper))) << name;
+    EXPECT_FALSE(is_corner(mouth_.at(0, 0, !upper)) || is_corner(mouth_.at(1, 0, !upper))) << name;
+  }
 }
 
 TEST_F(PlaceOnAClosedMouth, AtTheOnlyVertexThere_ItStays) {
