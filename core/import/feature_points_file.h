@@ -14,7 +14,9 @@ namespace semblante {
 
 /// A feature point file: {"points": {"2.1": {"vertex": 966, "position": [x, y, z]}, ...}}. Each point has a vertex
 /// (from 0, in the model file's own numbering), a position in the model file's own space, or both; `null` counts as
-/// absent. Unknown members are ignored. "proposed": true marks a point that no person has placed or confirmed.
+/// absent. A position alone may lie anywhere on the surface, also between vertices; with a vertex, it only says whether
+/// the numbers are those of this file. Unknown members are ignored. "proposed": true marks a point that no person has
+/// placed or confirmed.
 struct FeaturePointsFile {
   std::vector<MarkedPoint> points;  ///< in rising order of id; positions still in the FILE's axes
   /// "to_mpeg4_axes", rows as written: MPEG-4 position = matrix * file position. See axes.h.

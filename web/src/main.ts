@@ -167,7 +167,7 @@ function main(root: HTMLElement, session: Session | null, theme: HTMLElement): v
   stagePanel.onPart = (part) => fitPanel.revealPart(part);
   pointOutFindings(studio, fit, points, scene);
   flyToPoints(studio, points, scene);
-  points.imageOf = (id, vertex, middle) => picker.imageOf(id, vertex, middle);
+  points.imageOf = (id, of, middle) => picker.imageOf(id, of, middle);
   points.positionOf = (vertex) => scene.preview?.positionOf(vertex)?.toArray() ?? null;
   showSelected(studio, points, scene);
   hideParts(canvas, scene, studio, hidden);

@@ -138,6 +138,45 @@ TEST_F(Sheet, WeightsJson_HasARowPerFileVertex_WithAllDigits) {
   EXPECT_GT(entries, 82U);
 }
 
+TEST_F(Sheet, PointBetweenVertices_HasAVertexAfterThoseOfTheFile_AndFilesOfPointsKeepItsPosition) {
+  // A third of the way into the square of 40, 41, 50 and 49.
+  const std::string between = work.write("between.json", R"({"points": {"9.15": {"vertex": 58}, "2.1": {"vertex": 13},
+    "8.3": {"vertex": 33}, "8.4": {"vertex": 29}, "2.2": {"position": [4.3, 4.4, 0.1]}, "8.1": {"vertex": 49},
+    "3.7": {"vertex": 70}, "3.12": {"vertex": 64}, "9.3": {"vertex": 67}}})");
+  const Outcome outcome =
+      run_semblante({"parametrize", model, "--feature-points", between, "--weights-json", work.path("w.json")});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const json weights = json::parse(read_text(work.path("w.json")));
+  ASSERT_EQ(weights["vertices"].size(), 83U);
+  EXPECT_EQ(weights["vertices"][82], json::parse(R"([["2.2", 1]])"));
+  EXPECT_EQ(weights["vertices"][13], json::parse(R"([["2.1", 1]])"));
+
+  points = between;
+  ASSERT_EQ(deform({"--faps", "4=512"}).exit_code, 0);
+  const Model face = deformed();
+  const Model neutral = import_text(sheet_obj());
+  ASSERT_EQ(face.positions.size(), 83U);
+  EXPECT_EQ(face.positions[13], neutral.positions[13]);
+  EXPECT_NEAR(face.positions[82].x, 4.3F, 0.01);
+  // FAP 4 lowers 2.2 by 512 / 1024 of MNS0, and the corners of its triangle by less.
+  EXPECT_LT(face.positions[82].y, 4.0F);
+  const float fall = 4.4F - face.positions[82].y;
+  for (const std::uint32_t corner : {40U, 50U}) {
+    EXPECT_LT(face.positions[corner].y, neutral.positions[corner].y) << corner;
+    EXPECT_GT(face.positions[corner].y, neutral.positions[corner].y - fall) << corner;
+  }
+
+  const Outcome proposed = run_semblante({"propose", model, "--points", between});
+  ASSERT_EQ(proposed.exit_code, 0) << proposed.err;
+  const json file = json::parse(proposed.out)["points"];
+  EXPECT_TRUE(file["2.2"]["vertex"].is_null());
+  EXPECT_NEAR(file["2.2"]["position"][0].get<double>(), 4.3, 0.01);
+  for (const auto& [id, point] : file.items()) {
+    if (point["vertex"].is_null()) continue;
+    EXPECT_LT(point["vertex"].get<int>(), 81) << id;
+  }
+}
+
 TEST_F(Sheet, WeightsJson_NamesItsMethod_AndWhetherRowsAreShares) {
   const auto weights = [&](std::vector<std::string> options) {
     std::vector<std::string> arguments = {"parametrize", model, "--feature-points", points, "--weights-json", "-"};

@@ -61,6 +61,19 @@ TEST_F(Extract, WritesTheDifferenceInUnits_AndSaysWhatIsMissing) {
   EXPECT_NE(outcome.err.find("not marked on this head: "), std::string::npos) << outcome.err;
 }
 
+TEST_F(Extract, PointBetweenVertices_MovesAsItsPlaceInTheTriangle) {
+  // Three quarters of the way along the edge from 32, which stays, to 33, which moves by (1, -0.5).
+  const std::string places = R"("8.3": {"position": [5.75, 3, 0.28125]})";
+  std::string text = framed_sheet_points;
+  text.replace(text.find(R"("8.3": {"vertex": 33})"), 21, places);
+  points = work.write("between.json", text);
+  ASSERT_EQ(extract({smile}).exit_code, 0);
+  // MW0 is 3.75 steps now.
+  const json moved = set()["displacements"]["8.3"];
+  EXPECT_NEAR(moved[0].get<double>(), 0.75 / (3.75 / 1024), 0.1);
+  EXPECT_NEAR(moved[1].get<double>(), -0.375 / (2.0 / 1024), 0.1);
+}
+
 TEST_F(Extract, ASetIsWornByAnotherSheet_AsFarAsAsked) {
   ASSERT_EQ(extract({smile, "--kind", "viseme", "--name", "Grin", "--strength", "0.5"}).exit_code, 0);
   EXPECT_EQ(set()["displacements"]["8.3"], json::parse("[512, -512, 0]"));

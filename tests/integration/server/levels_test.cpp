@@ -52,6 +52,43 @@ class Levels : public ::testing::Test {
   static inline ServerProcess* server_ = nullptr;
 };
 
+TEST_F(Levels, PointBetweenVertices_IsKeptAsItsPosition_AndHasAVertexInEachPackage) {
+  const auto model = import_grid(port(), 31);
+  const auto path = "/v1/models/" + model + "/feature-points";
+  json body = json::parse(grid_points());
+  body["points"]["2.2"] = {{"position", {0.25, 4.5, 0.0}}};
+  const Fields json_type = {{"Content-Type", "application/json"}};
+  ASSERT_EQ(request(port(), "PUT", path, body.dump(), json_type).status, 200);
+  const json kept = json_of(request(port(), "GET", path))["points"]["2.2"];
+  EXPECT_TRUE(kept["vertex"].is_null()) << kept;
+  EXPECT_EQ(kept["position"], json::parse("[0.25, 4.5, 0.0]"));
+  // What was answered can be sent back.
+  body["points"]["2.2"] = kept;
+  ASSERT_EQ(request(port(), "PUT", path, body.dump(), json_type).status, 200);
+
+  const auto job =
+      json_of(request(port(), "POST", "/v1/models/" + model + "/parametrizations", R"({"lods":[400]})", json_type));
+  const json done = wait_for_job(port(), job.value("id", ""));
+  ASSERT_EQ(done.value("state", ""), "done") << done;
+  for (const std::size_t lod : {0U, 1U}) {
+    const auto rig = read_rig(get(model, "/rig.json?lod=" + std::to_string(lod)).body);
+    ASSERT_TRUE(rig) << rig.error().where << " " << rig.error().message;
+    if (lod == 0) {
+      EXPECT_EQ(rig->mesh.vertices, 31U * 31U + 1U);
+    }
+    const auto point = std::find_if(rig->feature_points.begin(), rig->feature_points.end(),
+                                    [](const auto& one) { return to_string(one.id) == "2.2"; });
+    ASSERT_NE(point, rig->feature_points.end());
+    EXPECT_TRUE(point->vertex);
+    EXPECT_NEAR(point->position[0], 0.25, 1e-5);
+    EXPECT_NEAR(point->position[1], 4.5, 1e-5);
+  }
+  // Numbers are those of the file: the point's own vertex has none.
+  EXPECT_EQ(json_of(get(model, ""))["counts"]["vertices"], 31 * 31) << get(model, "").body;
+  body["points"]["2.2"] = {{"vertex", 31 * 31}};
+  EXPECT_EQ(request(port(), "PUT", path, body.dump(), json_type).status, 422);
+}
+
 TEST_F(Levels, EachIsAPackageOfItsOwn) {
   const auto model = grid_with(R"({"lods":[400,150]})");
   const auto package = json_of(get(model, ""))["package"];

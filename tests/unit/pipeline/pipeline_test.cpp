@@ -262,6 +262,71 @@ TEST(MarkHead, AHeadTiltedInItsFile_IsSaid) {
                                                  "file; it is turned upright"));
 }
 
+/// The middle of a triangle at a vertex, in the axes of a file in which the head stands by `axes`.
+glm::dvec3 middle_beside(VertexId vertex, const Axes& axes) {
+  const Model model = testing::sample_head_model();
+  const auto triangle = std::find_if(model.triangles.begin(), model.triangles.end(), [&](const Triangle& t) {
+    return std::find(t.begin(), t.end(), vertex.value()) != t.end();
+  });
+  glm::dvec3 sum(0.0);
+  for (const std::uint32_t v : *triangle) sum += glm::dvec3(model.positions[v]);
+  return glm::transpose(to_mpeg4(axes)) * (sum / 3.0);
+}
+
+TEST(MarkHead, PointBetweenVertices_GetsOneOfItsOwn_OnATurnedHeadToo) {
+  const Model model = testing::sample_head_model();
+  for (const Axes& axes : {Axes{}, along_z}) {
+    ModelFrame known;  // as it lies
+    known.axes_sure = true;
+    auto standing = stand_head(sample_standing(axes), {{}, known, {}});
+    ASSERT_TRUE(standing);
+    auto marks = sample_marks(axes);
+    const auto nose =
+        std::find_if(marks.begin(), marks.end(), [](const auto& p) { return p.id == testing::fp("9.3"); });
+    const VertexId before = *testing::sample_head_points()[static_cast<std::size_t>(nose - marks.begin())].vertex;
+    nose->position = middle_beside(before, axes);
+    const auto head = mark_head(std::move(*standing), {marks, {}});
+    ASSERT_TRUE(head) << head.error().message;
+    EXPECT_EQ(head->turn.has_value(), axes == along_z);
+    EXPECT_THAT(head->warnings.points, IsEmpty());
+    ASSERT_EQ(head->inserted.size(), 1U);
+    ASSERT_EQ(head->model.positions.size(), model.positions.size() + 1);
+    EXPECT_TRUE(std::equal(model.positions.begin(), model.positions.end(), head->model.positions.begin()));
+    EXPECT_EQ(head->surface.surface_of.size(), head->model.positions.size());
+    for (const FeaturePoint& point : head->points) {
+      EXPECT_FALSE(point.between);
+      if (!point.vertex) continue;
+      EXPECT_EQ(head->is_of_file(*point.vertex), point.id != testing::fp("9.3"));
+      EXPECT_EQ(point.position, head->model.positions[point.vertex->value()]);
+    }
+  }
+}
+
+TEST(RigHead, PointBetweenVertices_MovesItsOwnVertexFully_AndIsInEveryLevel) {
+  auto standing = stand_head(sample_standing({}), {});
+  ASSERT_TRUE(standing);
+  auto marks = sample_marks({});
+  const auto cheek = std::find_if(marks.begin(), marks.end(), [](const auto& p) { return p.id == testing::fp("5.1"); });
+  cheek->position =
+      middle_beside(*testing::sample_head_points()[static_cast<std::size_t>(cheek - marks.begin())].vertex, {});
+  auto marked = mark_head(std::move(*standing), {marks, {}});
+  ASSERT_TRUE(marked) << marked.error().message;
+  for (const WeightMethod method : {WeightMethod::paper, WeightMethod::smooth}) {
+    auto rigged = rig_head(*marked, {method, DistanceMetric::unfolded});
+    ASSERT_TRUE(rigged);
+    const auto own = static_cast<std::uint32_t>(rigged->model.positions.size() - 1);
+    ASSERT_EQ(rigged->rig.weights.points_of(own).size(), 1U);
+    EXPECT_EQ(rigged->rig.weights.points_of(own)[0], testing::fp("5.1"));
+    EXPECT_EQ(rigged->rig.weights.weights_of(own)[0], 1.0);
+    const auto head = level_head(std::move(*rigged), {2000});
+    ASSERT_TRUE(head);
+    ASSERT_EQ(head->levels.size(), 1U);
+    const auto& triangles = head->levels[0].triangles;
+    EXPECT_TRUE(std::any_of(triangles.begin(), triangles.end(),
+                            [&](const Triangle& t) { return std::find(t.begin(), t.end(), own) != t.end(); }));
+  }
+}
+
 TEST(MarkByFile, AxesFromBothFileAndUser_AreRefused) {
   FeaturePointsFile file;
   file.to_mpeg4_axes = glm::dmat3(1.0);

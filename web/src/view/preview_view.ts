@@ -17,20 +17,24 @@ import { defaultMaterial, studioMaterial } from '@client/three/studio_material.t
 import type { PartRole } from '@protocol/rig_document.ts';
 import { pickThrough, type Meeting } from './pick_through.ts';
 import { framedHead, type Box } from './head_box.ts';
+import { meantCorner, moveToEdge } from './triangle_place.ts';
 
-/** A vertex of the file, by number, and its position. */
-export interface PickedVertex {
-  fileVertex: number;
+/** A place on the surface: a vertex of the file, by number, or a place between vertices, with null. */
+export interface SurfacePlace {
+  vertex: number | null;
   position: [number, number, number];
 }
 
-/** A picked place on the mesh, with the vertex nearest to it. */
-export interface Pick extends PickedVertex {
+/** A picked place on the mesh: the vertex nearest to it. */
+export interface Pick {
+  fileVertex: number;
+  position: [number, number, number];
   /** Part index, or null for a model imported by a version that did not store parts. */
   part: number | null;
-  /** Where the surface itself is hit, inside a triangle, and how much of this place is the vertex's: 1 at the vertex. */
+  /** Where the surface itself is hit. */
   hit: [number, number, number];
-  share: number;
+  /** The place of a point that is set there: `hit`, unless a vertex or an edge is meant (triangle_place.ts). */
+  place: SurfacePlace;
 }
 
 /** The vertices of all meshes, in the scene's space. `parts`: -1 where the model does not tell. */
@@ -40,6 +44,8 @@ interface VertexTable {
   /** Numbers of the file's vertices. */
   numbers: Int32Array;
   parts: Int32Array;
+  /** Three per triangle. */
+  corners: Uint32Array;
 }
 
 /** The parts that a pick is meant for. */
@@ -144,54 +150,55 @@ export class PreviewView {
     if (!hit?.face) return null;
     const mesh = hit.object as Mesh;
     const position = mesh.geometry.getAttribute('position') as BufferAttribute;
-    let best = -1;
-    let bestDistance = Infinity;
-    for (const vertex of [hit.face.a, hit.face.b, hit.face.c]) {
-      const distance = corner
-        .fromBufferAttribute(position, vertex)
-        .applyMatrix4(mesh.matrixWorld)
-        .distanceTo(hit.point);
-      if (distance < bestDistance) {
-        bestDistance = distance;
-        best = vertex;
-      }
-    }
-    const place = (vertex: number, to: Vector3): Vector3 => to.fromBufferAttribute(position, vertex).applyMatrix4(mesh.matrixWorld);
-    Triangle.getBarycoord(hit.point, place(hit.face.a, edge.a), place(hit.face.b, edge.b), place(hit.face.c, edge.c), shares);
-    place(best, corner);
+    const vertices = [hit.face.a, hit.face.b, hit.face.c] as const;
+    const places = [triangle.a, triangle.b, triangle.c] as const;
+    places.forEach((place, k) => place.fromBufferAttribute(position, vertices[k]!).applyMatrix4(mesh.matrixWorld));
+    const away = places.map((place) => place.distanceTo(hit.point));
+    const best = away.indexOf(Math.min(...away));
     return {
-      fileVertex: fileVertexOf(mesh.geometry, best),
-      part: mesh.geometry.hasAttribute('_part') ? partOf(mesh.geometry, best) : null,
-      position: [corner.x, corner.y, corner.z],
+      fileVertex: fileVertexOf(mesh.geometry, vertices[best]!),
+      part: mesh.geometry.hasAttribute('_part') ? partOf(mesh.geometry, vertices[best]!) : null,
+      position: places[best]!.toArray(),
       hit: hit.point.toArray(),
-      share: Math.max(shares.x, shares.y, shares.z),
+      place: placeOn(hit.point, triangle, (k) => fileVertexOf(mesh.geometry, vertices[k]!)),
     };
   }
 
   /**
-   * The vertex nearest to the mirror image of a vertex of the file, `middle` being the x of the plane, on the parts that qualify
-   * and within `reach`; null: none. Where two rims touch, the normals tell which of them is meant.
+   * The place nearest to the mirror image of a place, `middle` being the x of the plane, on the parts that qualify and within
+   * `reach`; null: none. A vertex stands for its surroundings within a tenth of `reach` if the place is a vertex. Where two rims
+   * touch, the normals tell which of them is meant.
    */
-  mirrored(fileVertex: number, middle: number, reach: number, qualifies: (part: number) => boolean): PickedVertex | null {
-    const { positions, normals, numbers, parts } = (this.table ??= tableOf(this.meshes));
-    const from = numbers.indexOf(fileVertex) * 3;
+  mirrored({ vertex, position }: SurfacePlace, middle: number, reach: number, qualifies: (part: number) => boolean): SurfacePlace | null {
+    const { positions, normals, numbers, parts, corners } = (this.table ??= tableOf(this.meshes));
+    const from = (vertex === null ? nearestOf(positions, position) : numbers.indexOf(vertex)) * 3;
     if (from < 0) return null;
-    const [x, y, z] = [2 * middle - positions[from]!, positions[from + 1]!, positions[from + 2]!];
+    const [px, py, pz] = vertex === null ? position : [positions[from]!, positions[from + 1]!, positions[from + 2]!];
+    const image = corner.set(2 * middle - px, py, pz);
     const turn = (reach * 0.05) ** 2; // what a normal of the other side counts, squared model units
     let best = -1;
     let least = Infinity;
-    for (let v = 0; v < numbers.length; v += 1) {
-      const i = v * 3;
-      const distance = (positions[i]! - x) ** 2 + (positions[i + 1]! - y) ** 2 + (positions[i + 2]! - z) ** 2;
-      if (distance >= least || distance > reach * reach || !qualifies(parts[v]!)) continue;
-      const alike = normals[i + 1]! * normals[from + 1]! + normals[i + 2]! * normals[from + 2]! - normals[i]! * normals[from]!;
+    for (let t = 0; t < corners.length; t += 3) {
+      const a = corners[t]! * 3;
+      const room = Math.min(reach, Math.sqrt(least));
+      if (beyond(image, positions, a, corners[t + 1]! * 3, corners[t + 2]! * 3) > room || !qualifies(parts[corners[t]!]!)) continue;
+      const distance = corneredBy(positions, corners, t).closestPointToPoint(image, nearest).distanceToSquared(image);
+      if (distance >= least || distance > reach * reach) continue;
+      const alike = normals[a + 1]! * normals[from + 1]! + normals[a + 2]! * normals[from + 2]! - normals[a]! * normals[from]!;
       const cost = distance + turn * (1 - alike);
       if (cost >= least) continue;
       least = cost;
-      best = v;
+      best = t;
     }
     if (best < 0) return null;
-    return { fileVertex: numbers[best]!, position: [positions[best * 3]!, positions[best * 3 + 1]!, positions[best * 3 + 2]!] };
+    corneredBy(positions, corners, best).closestPointToPoint(image, nearest);
+    const numberOf = (k: number): number => numbers[corners[best + k]!]!;
+    if (vertex !== null) {
+      const places = [triangle.a, triangle.b, triangle.c];
+      const near = places.findIndex((place) => place.distanceTo(nearest) <= reach * 0.1);
+      if (near >= 0) return { vertex: numberOf(near), position: places[near]!.toArray() };
+    }
+    return placeOn(nearest, triangle, numberOf);
   }
 
   private meeting({ object, face, distance }: Intersection, { roleOf }: Meant): Meeting {
@@ -288,11 +295,55 @@ export class PreviewView {
 }
 
 const corner = new Vector3();
-const edge = new Triangle();
-const shares = new Vector3();
+const nearest = new Vector3();
+const triangle = new Triangle();
+
+/** The place of a point that is set at a place of a triangle; `numberOf`: the vertex of the file at a corner, 0 to 2. */
+function placeOn(place: Vector3, on: Triangle, numberOf: (corner: number) => number): SurfacePlace {
+  const meant = meantCorner(place, on);
+  if (meant >= 0) return { vertex: numberOf(meant), position: [on.a, on.b, on.c][meant]!.toArray() };
+  return { vertex: null, position: moveToEdge(corner.copy(place), on).toArray() };
+}
+
+/** The triangle whose corners start at `t`. */
+function corneredBy(positions: Float32Array, corners: Uint32Array, t: number): Triangle {
+  triangle.a.fromArray(positions, corners[t]! * 3);
+  triangle.b.fromArray(positions, corners[t + 1]! * 3);
+  triangle.c.fromArray(positions, corners[t + 2]! * 3);
+  return triangle;
+}
+
+/** How far a place is outside of the box of a triangle, along one axis. */
+function beyond(place: Vector3, positions: Float32Array, a: number, b: number, c: number): number {
+  let most = 0;
+  for (let axis = 0; axis < 3; axis += 1) {
+    const [p, q, r] = [positions[a + axis]!, positions[b + axis]!, positions[c + axis]!];
+    const at = axis === 0 ? place.x : axis === 1 ? place.y : place.z;
+    most = Math.max(most, Math.min(p, q, r) - at, at - Math.max(p, q, r));
+  }
+  return most;
+}
+
+/** The index of the position nearest to a place; -1: there is none. */
+function nearestOf(positions: Float32Array, [x, y, z]: readonly [number, number, number]): number {
+  let best = -1;
+  let least = Infinity;
+  for (let i = 0; i < positions.length; i += 3) {
+    const distance = (positions[i]! - x) ** 2 + (positions[i + 1]! - y) ** 2 + (positions[i + 2]! - z) ** 2;
+    if (distance >= least) continue;
+    least = distance;
+    best = i / 3;
+  }
+  return best;
+}
 
 const partOf = (geometry: BufferGeometry, vertex: number): number =>
   Math.round(geometry.getAttribute('_part').getX(vertex));
+
+const cornerCount = ({ index, attributes }: BufferGeometry): number => {
+  const count = index?.count ?? attributes['position']!.count;
+  return count - (count % 3);
+};
 
 function tableOf(meshes: readonly Mesh[]): VertexTable {
   const count = meshes.reduce((sum, { geometry }) => sum + geometry.getAttribute('position').count, 0);
@@ -301,9 +352,13 @@ function tableOf(meshes: readonly Mesh[]): VertexTable {
     normals: new Float32Array(count * 3),
     numbers: new Int32Array(count),
     parts: new Int32Array(count).fill(-1),
+    corners: new Uint32Array(meshes.reduce((sum, { geometry }) => sum + cornerCount(geometry), 0)),
   };
   let at = 0;
+  let corners = 0;
   for (const { geometry, matrixWorld } of meshes) {
+    const { index } = geometry;
+    for (let i = 0; i < cornerCount(geometry); i += 1, corners += 1) table.corners[corners] = at + (index ? index.getX(i) : i);
     const position = geometry.getAttribute('position') as BufferAttribute;
     const normal = geometry.getAttribute('normal') as BufferAttribute;
     const hasParts = geometry.hasAttribute('_part');

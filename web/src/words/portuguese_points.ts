@@ -86,7 +86,7 @@ export const portuguesePoints = {
   Skip: 'Pular',
   Next: 'Próximo',
   'Click on the head to place it.': 'Clique na cabeça para colocá-lo.',
-  'At {list}': 'Em {list}',
+  'At {list}. Drag it, or click elsewhere.': 'Em {list}. Arraste-o ou clique em outro lugar.',
   'On vertex {vertex}. Drag it, or click elsewhere.': 'No vértice {vertex}. Arraste-o ou clique em outro lugar.',
   'Remove point {id}': 'Remover o ponto {id}',
   'Remove (Delete)': 'Remover (Delete)',

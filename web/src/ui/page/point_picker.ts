@@ -3,6 +3,7 @@ import type { HiddenParts } from '../points/hidden_parts.ts';
 import type { PointsModel } from '../points/points_model.ts';
 import type { SceneView } from '../stage/scene.ts';
 import { rolesOfPoint } from '../../view/pick_through.ts';
+import type { Pick, SurfacePlace } from '../../view/preview_view.ts';
 import type { PartRole } from '../../net/types.ts';
 import type { Marker } from '../../view/markers.ts';
 
@@ -11,12 +12,12 @@ const throughDepth = 0.3;
 /** A marker is seen where the surface under it is this near to it, in radii of the head. */
 const atMarker = 0.12;
 
-/** From this share of a triangle's corner on, a click means the vertex. */
-const atVertex = 0.85;
-/** How far from its exact image the vertex of the other side may be, in radii of the head. */
+/** A click this near to a vertex means the vertex, CSS pixels: on a dense head there is one under every pointer. */
+const atVertex = 5;
+/** How far from its exact image the place of the other side may be, in radii of the head. */
 const mirrorReach = 0.12;
 
-/** A pupil moves with the eyeball, not with a vertex, and may lie inside a triangle. */
+/** A pupil moves with the eyeball, not with a vertex: it lies exactly where it is put. */
 const isPupil = (id: string): boolean => id === '3.5' || id === '3.6';
 
 export interface PickedPoint {
@@ -42,22 +43,30 @@ export class PointPicker {
       depth: stage.headRadius * throughDepth,
     });
     if (!pick) return null;
-    const exact = isPupil(id) && pick.share < atVertex;
-    return {
-      point: exact ? { vertex: null, position: pick.hit } : { vertex: pick.fileVertex, position: pick.position },
-      part: pick.part,
-    };
+    return { point: this.placeOf(id, pick, x, y), part: pick.part };
   }
 
-  /** The place for point `id` at the mirror image of a vertex; null: the head has none there. */
-  imageOf(id: string, vertex: number, middle: number): PlacedPoint | null {
+  private placeOf(id: string, { place, fileVertex, position, hit }: Pick, x: number, y: number): PlacedPoint {
+    if (place.vertex !== null) return place;
+    if (isPupil(id)) return { vertex: null, position: hit };
+    const { markers, stage } = this.scene;
+    const { clientWidth: width, clientHeight: height } = stage.canvas;
+    const vertex = markers.project(position, stage.camera, width, height);
+    const away = Math.hypot(vertex.x - ((x + 1) / 2) * width, vertex.y - ((1 - y) / 2) * height);
+    return away <= atVertex ? { vertex: fileVertex, position } : place;
+  }
+
+  /** The place for point `id` at the mirror image of another; null: the head has none there. */
+  imageOf(id: string, { vertex, position }: PlacedPoint, middle: number): PlacedPoint | null {
     const { preview, stage } = this.scene;
     const roles = rolesOfPoint(id);
-    const image = preview?.mirrored(vertex, middle, stage.headRadius * mirrorReach, (part) => {
-      const role = this.roleOf(part);
-      return role === null || roles.includes(role);
-    });
-    return image ? { vertex: image.fileVertex, position: image.position } : null;
+    const place: SurfacePlace = { vertex, position: [...position] };
+    return (
+      preview?.mirrored(place, middle, stage.headRadius * mirrorReach, (part) => {
+        const role = this.roleOf(part);
+        return role === null || roles.includes(role);
+      }) ?? null
+    );
   }
 
   private roleOf(part: number): PartRole | null {

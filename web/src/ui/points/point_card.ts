@@ -77,7 +77,7 @@ export class PointCard {
   private where(id: string): string {
     const place = this.points.draft.points.get(id);
     if (!place) return t('Click on the head to place it.');
-    if (place.vertex === null) return t('At {list}', { list: place.position.map((value) => formatNumber(value, 4)).join(' · ') });
+    if (place.vertex === null) return t('At {list}. Drag it, or click elsewhere.', { list: place.position.map((value) => formatNumber(value, 4)).join(' · ') });
     return t('On vertex {vertex}. Drag it, or click elsewhere.', { vertex: place.vertex });
   }
 

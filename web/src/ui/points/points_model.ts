@@ -37,8 +37,8 @@ export class PointsModel {
   /** The position of a vertex of the file, model units; used for points that the server returns without a position. */
   positionOf: (vertex: number) => readonly [number, number, number] | null = () => null;
 
-  /** The place on the head for point `id` at the image of a vertex, `middle` being the middle of the head; null: none is near. */
-  imageOf: (id: string, vertex: number, middle: number) => PlacedPoint | null = () => null;
+  /** The place on the head for point `id` at the image of another, `middle` being the middle of the head; null: none is near. */
+  imageOf: (id: string, of: PlacedPoint, middle: number) => PlacedPoint | null = () => null;
 
   constructor(
     private readonly studio: Studio,
@@ -121,12 +121,10 @@ export class PointsModel {
   }
 
   /** The point that moves with this one, and where it goes when this one goes to `point`; null: none. */
-  twinOf(id: string, { vertex, position }: PlacedPoint): [string, PlacedPoint] | null {
+  twinOf(id: string, point: PlacedPoint): [string, PlacedPoint] | null {
     const twin = this.lock.twinOf(id);
     if (twin === null) return null;
-    const middle = middleOf(this.draft.points);
-    if (vertex === null) return [twin, { vertex, position: [2 * middle - position[0], position[1], position[2]] }];
-    const at = this.imageOf(twin, vertex, middle);
+    const at = this.imageOf(twin, point, middleOf(this.draft.points));
     return at ? [twin, at] : null;
   }
 
