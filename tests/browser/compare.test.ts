@@ -204,17 +204,28 @@ describe('side by side', () => {
     await studio.close();
   });
 
-  test('Compare_OnAPhone_StandsOneAboveTheOther', async () => {
+  test('Compare_OnAPhone_StandsSideBySide_WithShortLabels_AndLeavesTheFacesRoom', async () => {
     const context = await browser.newContext({ viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, reducedMotion: 'reduce' });
     const studio = await StudioPage.openIn(context, `${server.url}/#sample/animate`);
     await studio.waitForStage('ready');
     const { page } = studio;
     await page.locator('#compare-with').selectOption('level 1');
     await untilBeside(page);
-    const [upper, lower] = [(await page.locator('canvas.canvas').boundingBox())!, (await page.locator('canvas.twin-canvas').boundingBox())!];
-    expect(lower.y).toBeGreaterThanOrEqual(upper.y + upper.height - 2);
-    expect(Math.abs(lower.height - upper.height)).toBeLessThan(3);
-    expect(upper.height).toBeGreaterThan(220);
+    const [left, right] = [(await page.locator('canvas.canvas').boundingBox())!, (await page.locator('canvas.twin-canvas').boundingBox())!];
+    expect(right.x).toBeGreaterThanOrEqual(left.x + left.width - 2);
+    expect(Math.abs(right.width - left.width)).toBeLessThan(3);
+    expect(left.height).toBeGreaterThan(400);
+    // Each label is over its own view, above a place for the face that is higher than wide.
+    const tools = (await page.locator('.stage-holder .tools').boundingBox())!;
+    for (const [view, box] of [['.stage-holder', left], ['.compare-view', right]] as const) {
+      const label = (await page.locator(`${view} .compare-label`).boundingBox())!;
+      expect(label.x, view).toBeGreaterThanOrEqual(box.x);
+      expect(label.x + label.width, view).toBeLessThanOrEqual(box.x + box.width + 1);
+      expect(tools.y - label.y - label.height, view).toBeGreaterThan(box.width);
+    }
+    expect(await page.locator('.stage-holder .compare-label').innerText()).toMatch(/^Full mesh, [\d,]+ vertices$/);
+    expect(await page.locator('.compare-view .compare-text').innerText()).toMatch(/^Level 1, [\d,]+ vertices$/);
+    await studio.keep('compare-narrow');
     expect(await page.evaluate(() => document.documentElement.scrollWidth - innerWidth)).toBe(0);
     await page.getByRole('button', { name: 'Close the second view' }).tap();
     await page.locator('canvas.twin-canvas').waitFor({ state: 'detached' });

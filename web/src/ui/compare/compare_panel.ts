@@ -6,7 +6,7 @@ import { Signal } from '../shared/signal.ts';
 import type { Studio } from '../shared/studio.ts';
 import type { SceneView } from '../stage/scene.ts';
 import type { CompareView } from './compare_view.ts';
-import { faceCaption, levelTitle, methodTitle } from './face_caption.ts';
+import { differenceFrom, faceCaption, levelTitle, methodTitle, type ShownFace } from './face_caption.ts';
 import { t } from '../../words/words.ts';
 
 /** The weights that every model can have; `fitted` needs shapes of the model's own. */
@@ -34,8 +34,9 @@ export class ComparePanel {
   private readonly busy = new Signal(false);
   /** The weights that are chosen and have to be computed first. */
   private readonly wanted = new Signal<Method | null>(null);
-  /** What the second view shows, and what the list was made of. */
-  private caption = '';
+  /** What the second view shows. */
+  private beside: ShownFace | null = null;
+  /** What the list was made of. */
   private listed = '';
 
   /** `load` makes the second view, whose code is loaded when it is first wanted. */
@@ -87,7 +88,7 @@ export class ComparePanel {
   }
 
   private async show(model: Model, level: number): Promise<boolean> {
-    this.caption = faceCaption(model, level);
+    this.beside = { model, level };
     try {
       if (!this.view.value) {
         const view = await this.load(() => this.close());
@@ -139,7 +140,12 @@ export class ComparePanel {
     const shown = open && this.scene.faceShown.value;
     this.seat.hidden = !shown;
     this.label.hidden = !shown;
-    if (model) setText(this.label.firstElementChild!, faceCaption(model, this.scene.level.value));
+    if (shown && model && this.beside) {
+      const face = { model, level: this.scene.level.value };
+      setText(this.label.firstElementChild!, differenceFrom(face, this.beside));
+      this.label.title = faceCaption(face);
+      this.view.value?.name(this.beside, face);
+    }
     this.fill(model, open);
     const { value: wanted } = this.wanted;
     const busy = this.busy.value;
@@ -155,17 +161,18 @@ export class ComparePanel {
 
   private fill(model: Model | null, open: boolean): void {
     const wanted = this.wanted.value;
+    const caption = this.beside ? faceCaption(this.beside) : '';
     this.select.disabled = this.busy.value;
     const groups = this.choices(model);
     // A list that is open under the user's hand would close if it were made again.
-    const listed = JSON.stringify([open && this.caption, groups]);
+    const listed = JSON.stringify([open && caption, groups]);
     if (listed !== this.listed) {
       this.listed = listed;
       const option = ([value, title]: Choice): HTMLElement => h('option', { value }, title);
       replace(
         this.select,
         option(['none', t('Nothing')]),
-        open ? option(['shown', this.caption]) : null,
+        open ? option(['shown', caption]) : null,
         groups.filter(({ choices }) => choices.length > 0).map(({ label, choices }) => h('optgroup', { label }, choices.map(option))),
       );
     }

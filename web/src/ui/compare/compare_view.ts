@@ -5,7 +5,7 @@ import { h, replace, setText } from '../shared/dom.ts';
 import { icon } from '../shared/icons.ts';
 import type { FaceDriver } from '../stage/face_driver.ts';
 import type { SceneView } from '../stage/scene.ts';
-import { faceCaption } from './face_caption.ts';
+import { differenceFrom, faceCaption, type ShownFace } from './face_caption.ts';
 import { t } from '../../words/words.ts';
 
 export interface CompareOptions {
@@ -75,11 +75,15 @@ export class CompareView {
 
   /** Shows a level of a head's face package. Resolves with whether it is shown. */
   async open(model: Model, level: number): Promise<boolean> {
-    const caption = faceCaption(model, level);
-    setText(this.label, caption);
-    this.element.querySelector('canvas')!.setAttribute('aria-label', caption);
     await this.scene.open(model, level);
     return this.scene.state.value.kind === 'ready';
+  }
+
+  /** Says what is shown: over the picture, what tells it from the first view. */
+  name(face: ShownFace, first: ShownFace): void {
+    setText(this.label, differenceFrom(face, first));
+    this.label.title = faceCaption(face);
+    this.element.querySelector('canvas')!.setAttribute('aria-label', faceCaption(face));
   }
 
   dispose(): void {

@@ -20,11 +20,25 @@ export function levelTitle(lod: number, vertices: number): string {
   });
 }
 
-/** What is seen of a head: its name, its weights, its level of detail. */
-export function faceCaption(model: Model, lod: number): string {
-  const parts = [model.name];
-  if (model.package) parts.push(methodTitle(model.package));
-  const level = model.package?.levels.find((one) => one.lod === lod);
-  if (level) parts.push(levelTitle(lod, level.vertices));
-  return parts.join(' · ');
+/** A head at a level of detail. */
+export interface ShownFace {
+  model: Model;
+  level: number;
+}
+
+/** What is seen of a head: its name, its weights, its level of detail; null: not known. */
+const factsOf = ({ model, level }: ShownFace): (string | null)[] => {
+  const made = model.package?.levels.find(({ lod }) => lod === level);
+  return [model.name, model.package ? methodTitle(model.package) : null, made ? levelTitle(level, made.vertices) : null];
+};
+
+/** "Anna · Smooth skin, along edges · Full mesh, 5,120 vertices". */
+export const faceCaption = (face: ShownFace): string => factsOf(face).filter((fact) => fact !== null).join(' · ');
+
+/** What tells a face from the one beside it; everything, where nothing does. Of another head the name alone is enough. */
+export function differenceFrom(face: ShownFace, other: ShownFace): string {
+  if (face.model.id !== other.model.id && face.model.name !== other.model.name) return face.model.name;
+  const others = factsOf(other);
+  const different = factsOf(face).filter((fact, i) => fact !== null && fact !== others[i]);
+  return different.length > 0 ? different.join(' · ') : faceCaption(face);
 }

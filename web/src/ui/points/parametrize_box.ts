@@ -1,4 +1,5 @@
-import { h, replace, setText } from '../shared/dom.ts';
+import { h, redraw, replace, setText } from '../shared/dom.ts';
+import type { Model } from '../../net/types.ts';
 import { formatNumber, formatPercent } from '../shared/format.ts';
 import { ParametrizeOptions } from './parametrize_options.ts';
 import type { Parametrizer } from './parametrizer.ts';
@@ -12,6 +13,8 @@ export class ParametrizeBox {
   readonly element: HTMLElement;
   private readonly fapu = h('p', { class: 'small muted' });
   private readonly progress = h('div', { class: 'progress-slot' });
+  /** Why there is nothing to parametrize yet, and what helps. */
+  private readonly why = h('p', { class: 'small why', hidden: true });
   private readonly save: HTMLButtonElement | null;
   private readonly go: HTMLButtonElement;
 
@@ -29,6 +32,7 @@ export class ParametrizeBox {
       this.progress,
       new ParametrizeOptions(parametrizer).element,
       this.fapu,
+      this.why,
       h('div', { class: 'row' }, this.save, this.go),
     );
     points.changed.watch(() => this.draw());
@@ -58,6 +62,7 @@ export class ParametrizeBox {
       );
     }
     this.go.disabled = busy || !usable || draft.points.size === 0;
+    this.drawWhy(busy ? null : model);
     setText(this.go, model?.state === 'parametrized' ? t('Parametrize again') : t('Parametrize'));
     replace(
       this.progress,
@@ -75,6 +80,36 @@ export class ParametrizeBox {
           )
         : null,
       activity ? progressBar(activity) : null,
+    );
+  }
+
+  private drawWhy(model: Model | null): void {
+    const empty = (model?.state === 'ready' || model?.state === 'parametrized') && this.points.draft.points.size === 0;
+    const importing = model?.state === 'importing';
+    this.why.hidden = !empty && !importing;
+    if (this.why.hidden) return this.why.replaceChildren();
+    redraw(this.why, () =>
+      replace(
+        this.why,
+        h('span', { class: 'grow' }, importing ? t('The head is still being read.') : t('A face needs feature points, and none is placed.')),
+        empty
+          ? h(
+              'button',
+              {
+                type: 'button',
+                class: 'small',
+                'data-focus': 'first',
+                on: {
+                  click: () => {
+                    this.studio.tab.set('points');
+                    this.points.chooseNext();
+                  },
+                },
+              },
+              t('Place the first'),
+            )
+          : null,
+      ),
     );
   }
 }

@@ -1,3 +1,4 @@
+import { partnerOf } from '../../face/mirror_points.ts';
 import { ask } from '../shared/dialog.ts';
 import { h, replace, setText } from '../shared/dom.ts';
 import { Guide } from './guide.ts';
@@ -32,6 +33,7 @@ export class PointsPanel {
     'mirror',
     () => void this.points.save(true),
   );
+  private readonly download = this.tool(t('Export points to a file'), 'download', () => this.points.exportFile());
 
   constructor(
     private readonly studio: Studio,
@@ -71,7 +73,7 @@ export class PointsPanel {
           this.mirror,
           this.lock,
           this.tool(t('Import points from a file'), 'upload', () => file.click()),
-          this.tool(t('Export points to a file'), 'download', () => points.exportFile()),
+          this.download,
           file,
         ),
       ),
@@ -154,7 +156,11 @@ export class PointsPanel {
     const busy = this.points.busy.value || (model !== null && this.studio.activities.value.has(model.id));
     this.undo.disabled = !draft.canUndo;
     this.redo.disabled = !draft.canRedo;
-    this.mirror.disabled = busy || !usable || size === 0;
+    const lacks = [...draft.points.keys()].some((id) => !draft.points.has(partnerOf(id) ?? id));
+    this.mirror.disabled = busy || !usable || !lacks;
+    this.mirror.title = lacks ? t('Fill the missing side by mirroring') : t('Fill the missing side by mirroring: no point lacks its other side');
+    this.download.disabled = size === 0;
+    this.download.title = size > 0 ? t('Export points to a file') : t('Export points to a file: none is placed');
   }
 
   private refusal(wrong: readonly string[]): HTMLElement {
