@@ -6,7 +6,7 @@
 #include "server/api/authorization.h"
 #include "server/api/common.h"
 #include "server/api/generated/handlers.h"
-#include "server/api/play_options.h"
+#include "server/api/motion_body.h"
 #include "server/api/quota.h"
 #include "server/api/routes.h"
 #include "server/api/storage_problems.h"

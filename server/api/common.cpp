@@ -36,6 +36,12 @@ void refuse_for_now(std::string detail, unsigned retry_after) {
   throw Refused{http::make_problem("too-many-requests", std::move(detail)), retry_after};
 }
 
+std::unique_ptr<void, void (*)(void*)> export_slot(Context& context) {
+  auto slot = context.exports->take();
+  if (!slot) refuse_for_now("as many exports as may be made at the same time are being made; try again", 2);
+  return slot;
+}
+
 store::ModelRecord model_of(Context& context, const http::Request& request) {
   const auto& id = request.params.at("model");
   auto model = context.store.model(id);

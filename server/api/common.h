@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -20,6 +21,9 @@ struct Refused {
 [[noreturn]] void refuse(std::string_view slug, std::string detail, std::string pointer = {});
 /// Refuses with 429 and a Retry-After of so many seconds.
 [[noreturn]] void refuse_for_now(std::string detail, unsigned retry_after);
+
+/// A slot of context.exports; refuses with 429 when all are taken.
+std::unique_ptr<void, void (*)(void*)> export_slot(Context& context);
 
 /// The model in the request's path; refuses with 404.
 store::ModelRecord model_of(Context& context, const http::Request& request);

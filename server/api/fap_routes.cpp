@@ -6,6 +6,7 @@
 #include "protocol/cpp/fap_file_frames.h"
 #include "server/api/common.h"
 #include "server/api/generated/handlers.h"
+#include "server/api/motion_body.h"
 #include "server/api/play_options.h"
 #include "server/streams/fap_source.h"
 
@@ -32,21 +33,15 @@ http::Response play_fap_file(Context& context, http::Request& request) {
   if (second_word(request, "absent", "zero", "keep")) meaning.absent = AbsentFap::keep;
   if (second_word(request, "gaps", "hold", "interpolate")) meaning.gap = FrameGap::interpolate;
 
-  FapFileLimits limits;
-  limits.bytes = max_fap_body_bytes;
-  const auto reading = read_fap_file(text_of_body(request), limits);
-  if (!reading) {
-    const auto& error = reading.error();
-    refuse(error.code == ErrorCode::too_large ? "content-too-large" : "invalid-fap-file", error.message, error.where);
-  }
-  const auto frames = frames_of(reading->file, meaning);
-  if (!frames) refuse("invalid-fap-file", frames.error().message, frames.error().where);
+  const auto reading = fap_file_of_body(request);
+  const auto frames = frames_of(reading.file, meaning);
+  if (!frames) refuse_fap_file(frames.error());
   // The default is the file's own rate, with which its frames are sent unchanged.
   if (!request.query_value("fps"))
-    options.rate = std::clamp(reading->file.rate, streams::least_play_rate, streams::most_play_rate);
+    options.rate = std::clamp(reading.file.rate, streams::least_play_rate, streams::most_play_rate);
   std::vector<std::string> warnings;
-  for (const auto& warning : reading->warnings) warnings.push_back(to_sentence(warning));
-  auto source = streams::make_fap_source(*frames, reading->file.rate, reading->file.name,
+  for (const auto& warning : reading.warnings) warnings.push_back(to_sentence(warning));
+  auto source = streams::make_fap_source(*frames, reading.file.rate, reading.file.name,
                                          scaled_quantizers(info->settings.quantizer_scale));
   return play_into(context, stream, std::move(source), options, warnings);
 }

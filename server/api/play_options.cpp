@@ -2,8 +2,6 @@
 
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -34,12 +32,6 @@ double number(const http::Request& request, const std::string& name, double othe
 }
 
 }  // namespace
-
-std::string text_of_body(const http::Request& request) {
-  if (!request.body_file) return request.body;
-  std::ifstream file(request.body_file->path(), std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
 
 streams::PlayOptions play_options(const http::Request& request) {
   streams::PlayOptions options;

@@ -10,12 +10,6 @@
 
 namespace semblante::api {
 
-/// Limit of a .fap file; other bodies have their own limits.
-inline constexpr std::size_t max_fap_body_bytes = std::size_t{16} << 20U;
-
-/// Reads the body, from the disk if it is there: bodies that are still arriving take no memory.
-std::string text_of_body(const http::Request& request);
-
 /// The playback options in the query: fps, loop, from (ms), take_over. Refuses invalid values.
 streams::PlayOptions play_options(const http::Request& request);
 

@@ -5,12 +5,11 @@
 #include <nlohmann/json.hpp>
 
 #include "core/import/model_formats.h"
-#include "protocol/clips/clip.h"
 #include "protocol/cpp/json_codec.h"
 #include "protocol/cpp/quantizers.h"
 #include "server/api/export_file.h"
 #include "server/api/generated/handlers.h"
-#include "server/api/mapped_file.h"
+#include "server/api/model_clip.h"
 #include "server/api/recordings_common.h"
 #include "server/api/storage_problems.h"
 #include "server/http/conditional.h"
@@ -26,7 +25,6 @@ using SharedReader = std::shared_ptr<const recordings::RecordingReader>;
 constexpr std::uint32_t max_ms = static_cast<std::uint32_t>(recordings::max_recording_ms);
 constexpr std::uint32_t default_frames = 200;
 constexpr std::uint32_t most_frames = 1000;
-constexpr std::size_t max_clip_memory_frames = 50'000;
 
 struct Format {
   std::string_view name, extension, media_type;
@@ -72,31 +70,12 @@ http::Body clip_of(Context& context, const http::Request& request, const Recordi
   if (id.empty()) refuse("conflict", "the stream had no model: give ?model", "?model");
   const auto model = context.store.model(id);
   if (!model) refuse("not-found", "there is no model " + id, "?model");
-  const auto file_of = [&](std::string_view sha256) { return MappedFile(context.blobs.whole(sha256)); };
-  const auto artefact = [&](const char* name) {
-    const auto found = context.store.artefact(id, name);
-    if (!found || !model->package)
-      refuse("conflict", "the model is not parametrized: it has no face package", "?model");
-    return file_of(found->sha256);
-  };
-  const auto mesh = artefact("mesh.drc");
-  const auto weights = artefact("weights");
-  const auto rig = artefact("rig.json");
-  const auto image = [&](const Sha256& hash) -> Result<std::vector<std::uint8_t>> {
-    const MappedFile file(context.blobs.whole(to_hex(hash)));
-    return std::vector<std::uint8_t>(file.bytes().begin(), file.bytes().end());
-  };
   const auto frames = recordings::gather(reader, cut, max_clip_memory_frames);
   if (!frames) refuse_export(frames.error());
   ClipOptions options;
   options.name = recording.record.name;
   if (const auto share = reader->header().viseme_share) options.viseme_share = static_cast<float>(*share);
-  auto clip = make_clip({mesh.bytes(), weights.bytes(), rig.text(), image}, *frames, options);
-  if (!clip) {
-    if (clip.error().code == ErrorCode::too_large) refuse("content-too-large", clip.error().message);
-    refuse("conflict", "no clip can be made: " + clip.error().message, "?model");
-  }
-  return std::string(clip->glb.begin(), clip->glb.end());
+  return clip_of_model(context, *model, 0, *frames, options, "?model");
 }
 
 http::Response content_of(Context& context, const http::Request& request, const RecordingStatus& recording) {
@@ -125,8 +104,7 @@ http::Response content_of(Context& context, const http::Request& request, const 
     response.body = http::FileBody{context.recorder->path_of(record.id), 0, bytes->size()};
     return http::apply_conditions(request, std::move(response));
   }
-  const auto slot = context.exports->take();
-  if (!slot) refuse_for_now("as many exports as may be made at the same time are being made; try again", 2);
+  const auto slot = export_slot(context);
   const auto reader = read_recording(context, recording);
   const auto text = [](Result<std::string> made) {
     if (!made) refuse_export(made.error());

@@ -1,5 +1,6 @@
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
+import { validateBytes } from 'gltf-validator';
 import type { Download, Page } from 'playwright-core';
 import { describe, expect, test } from 'vitest';
 import { buildDir, root } from './support/paths.ts';
@@ -7,6 +8,7 @@ import { eventually } from './support/patience.ts';
 import { StudioPage } from './support/studio_page.ts';
 import { browser, server, useStudio } from './support/suite.ts';
 
+const hello = join(root, 'protocol/examples/performances/hello.json');
 const voice = join(buildDir, 'bin/semblante-voice-espeak');
 useStudio({ voice });
 
@@ -37,6 +39,15 @@ function measured(page: Page, bytes: Buffer): Promise<{ width: number; height: n
   }, bytes.toString('base64'));
 }
 
+/** Time of the last key of a GLB's animation, s. */
+function durationOf(glb: Buffer): number {
+  const { accessors, animations } = JSON.parse(glb.subarray(20, 20 + glb.readUInt32LE(12)).toString()) as {
+    accessors: { max?: number[] }[];
+    animations: { samplers: { input: number }[] }[];
+  };
+  return Math.max(...animations[0]!.samplers.map(({ input }) => accessors[input]!.max![0]!));
+}
+
 describe('export', () => {
   test('PictureAndFap_AreWhatIsOnTheStage', async () => {
     const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { width: 1440, height: 900 });
@@ -58,11 +69,22 @@ describe('export', () => {
     const hand = await saved(page, () => page.getByRole('button', { name: '.fap', exact: true }).click());
     expect(hand.name).toBe('Sample head.fap');
     expect(hand.bytes.toString().trim().split('\n').length).toBeLessThan(10);
-    await studio.drop(join(root, 'protocol/examples/performances/hello.json'));
+    await studio.drop(hello);
     await page.getByText('hello.json').first().waitFor();
     const clip = await saved(page, () => page.getByRole('button', { name: '.fap', exact: true }).click());
     // It is read and played by this page again, as long as the document.
     expect(clip.bytes.toString().trim().split('\n').length).toBeGreaterThan(100);
+
+    // On the head: the server's clip of the document, read by others without a fault.
+    const glb = await saved(page, () => page.getByRole('button', { name: 'GLB clip' }).click());
+    expect(glb.name).toBe('Sample head-clip.glb');
+    const report = await validateBytes(new Uint8Array(glb.bytes));
+    expect(report.issues.messages.filter(({ severity }) => severity <= 1)).toEqual([]);
+    expect([report.info.animationCount, report.info.hasSkins]).toEqual([1, true]);
+    const document = await saved(page, () => page.getByRole('button', { name: 'Performance', exact: true }).click());
+    expect(JSON.parse(document.bytes.toString())).toEqual(JSON.parse(readFileSync(hello, 'utf8')));
+    const face = await saved(page, () => page.getByRole('button', { name: 'Face package' }).click());
+    expect([face.name, face.bytes.subarray(0, 4).toString()]).toEqual(['Sample head.glb', 'glTF']);
     await studio.keep('export-wide');
     expect(studio.errors).toEqual([]);
     await studio.close();
@@ -86,6 +108,13 @@ describe('export', () => {
     expect(height).toBeGreaterThan(300);
     expect(seconds).toBeGreaterThan(0.5);
     expect(loud).toBeGreaterThan(1000);
+
+    // The speech stays what is saved after its end, until the face is changed.
+    const clip = await saved(page, () => page.getByRole('button', { name: 'GLB clip' }).click());
+    expect(durationOf(clip.bytes)).toBeGreaterThan(0.5);
+    await page.locator('.viseme[data-viseme="10"]').click();
+    const still = await saved(page, () => page.getByRole('button', { name: 'GLB clip' }).click());
+    expect(durationOf(still.bytes)).toBe(0);
     expect(studio.errors).toEqual([]);
     await studio.close();
   });

@@ -60,6 +60,18 @@ const sources = Object.keys(takes) as MotionSource[];
 const pairs = sources.flatMap((from) => sources.map((to) => [from, to] as const));
 
 describe('face driver', () => {
+  test('ClipToSave_IsTheSpeechAlsoAfterItsEnd_UntilASourceIsTakenByHand', () => {
+    takes.speech();
+    const speech = driver.clipToSave;
+    expect(speech).not.toBeNull();
+    driver.release('speech');
+    expect([driver.source.value, driver.shownClip, driver.clipToSave]).toEqual(['hand', null, speech]);
+    driver.byHand();
+    expect(driver.clipToSave).toBeNull();
+    takes.clip();
+    expect(driver.clipToSave).toBe(driver.clip.clip);
+  });
+
   test.each(sources)('Twin_While%sHasTheFace_IsMovedAlike', (source) => {
     takes[source]();
     const twin = new FakeFace();

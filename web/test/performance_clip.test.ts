@@ -24,7 +24,7 @@ const levelsAt = (clip: PerformanceClip, position: number, lap = 0): [number[], 
 describe('performance clip', () => {
   test('Moment_AnywhereInAnyOrder_IsThePerformanceThere', () => {
     const performance = perform(hello);
-    const clip = new PerformanceClip(performance);
+    const clip = new PerformanceClip(performance, hello);
     expect(clip.duration).toBe(performance.duration);
     for (const position of [0, 7, 20, 33, 1234.5, 1250, 300, clip.duration]) {
       const { from, to, t } = clip.momentAt(position);
@@ -38,7 +38,7 @@ describe('performance clip', () => {
   });
 
   test('Moment_FrameByFrame_MakesEachFrameOnce', () => {
-    const clip = new PerformanceClip(perform(hello));
+    const clip = new PerformanceClip(perform(hello), hello);
     const first = clip.momentAt(1000).to;
     expect(clip.momentAt(1005).to).toBe(first);
     expect(clip.momentAt(1021).from).toBe(first);
@@ -60,7 +60,7 @@ describe('performance clip', () => {
 
   test('Loop_IdleLife_RunsOnWhereTheCuesBeginAgain', () => {
     const text = idleText.replace('}}', '}, "duration": 1000, "cues": [{"time": 0, "duration": 900, "viseme": "o"}]}');
-    const clip = new PerformanceClip(perform(text));
+    const clip = new PerformanceClip(perform(text), text);
     const end = levelsAt(clip, 1000)[0];
     const again = levelsAt(clip, 0, 1)[0];
     expect(again).toEqual(end);

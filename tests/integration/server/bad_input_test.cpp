@@ -143,7 +143,7 @@ TEST_F(BadInput, ExamplesOfTheDocument_AreGoodInput) {
       ++sent;
     }
   }
-  EXPECT_EQ(sent, 18U);
+  EXPECT_EQ(sent, 19U);
 }
 
 /// curl --data sends a form's type unless it is told otherwise.

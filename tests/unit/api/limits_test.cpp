@@ -17,7 +17,8 @@
 #include "server/access/token_limits.h"
 #include "server/api/api.h"
 #include "server/api/documents.h"
-#include "server/api/play_options.h"
+#include "server/api/model_clip.h"
+#include "server/api/motion_body.h"
 #include "server/jobs/job_run.h"
 #include "server/net/server.h"
 #include "server/recordings/recorder.h"
@@ -148,6 +149,7 @@ TEST(Limits, OfTheReadMe_AreThoseThatAreKept) {
        size(max_performance_bytes) + ", " + count(max_performance_cues) + ", " + count(max_performance_keys)},
       {"performance: simultaneous cues on one target", count(max_overlapping_cues)},
       {"performance: frames per second", count(streams::least_play_rate) + " to " + count(streams::most_play_rate)},
+      {"faces of an animated clip", count(max_clip_memory_frames)},
       {"playing performances and .fap files, together", size(stream.playing_bytes) + " of memory"},
       {"recordings", count(recorder.max_recordings) + " stored, " + count(recorder.max_running) + " running"},
       {"recording", count(recordings::max_recording_ms / 3'600'000) + " h, " + size(recorder.max_bytes)},
@@ -195,6 +197,7 @@ TEST(Limits, OfTheApiDocument_AreThoseThatAreKept) {
   EXPECT_NE(description("/v1/models").find("At most " + size(ApiLimits{}.max_upload_bytes)), std::string::npos);
   EXPECT_TRUE(description("/v1/streams/{stream}/fap").starts_with("At most " + size(max_fap_body_bytes)));
   EXPECT_TRUE(description("/v1/streams/{stream}/performances").starts_with("At most " + size(max_performance_bytes)));
+  EXPECT_TRUE(description("/v1/models/{model}/clip").starts_with("At most " + size(max_performance_bytes)));
   EXPECT_EQ(document.at("components").at("schemas").at("Performance").at("properties").at("cues").at("maxItems"),
             max_performance_cues);
 }

@@ -5,7 +5,7 @@ import { PerformanceClip } from './performance_clip.ts';
 /** The parsed content of a file that can be played. */
 export type ClipFile =
   | { kind: 'fap'; text: string; take: Take }
-  | { kind: 'performance'; performance: Performance; cues: number; hasIdle: boolean };
+  | { kind: 'performance'; text: string; performance: Performance; cues: number; hasIdle: boolean };
 
 /** The kind of a clip file, from the extension of its name. */
 export const kindOfClip = (name: string): ClipFile['kind'] => (/\.fap$/i.test(name) ? 'fap' : 'performance');
@@ -15,12 +15,12 @@ export function readClipFile(library: Library, name: string, text: string): Clip
   if (kindOfClip(name) === 'fap') return { kind: 'fap', text, take: readTake(library, 'fap', text) };
   const performance = new Performance(library, text);
   const { cues, idle } = JSON.parse(text) as { cues?: unknown[]; idle?: object };
-  return { kind: 'performance', performance, cues: cues?.length ?? 0, hasIdle: idle !== undefined };
+  return { kind: 'performance', text, performance, cues: cues?.length ?? 0, hasIdle: idle !== undefined };
 }
 
 /** `absent`: the value of a FAP that a frame of a .fap file omits: zero, or the value of the frame before. */
 export function clipOf(library: Library, file: ClipFile, absent: 'zero' | 'keep'): Clip {
-  if (file.kind === 'performance') return new PerformanceClip(file.performance);
+  if (file.kind === 'performance') return new PerformanceClip(file.performance, file.text);
   const take = absent === 'zero' ? file.take : readTake(library, 'fap', file.text, { absent });
   return new FrameClip(take.frames);
 }

@@ -13,7 +13,11 @@ export class PerformanceClip implements Clip {
   private readonly moment: ClipMoment;
   private lap = 0;
 
-  constructor(private readonly performance: Performance) {
+  /** `document`: the text that `performance` was made of. */
+  constructor(
+    private readonly performance: Performance,
+    readonly document: string,
+  ) {
     this.duration = performance.duration > 0 ? performance.duration : Infinity;
     const first = this.frameAt(0);
     this.moment = { from: first, to: first, t: 0 };

@@ -88,6 +88,17 @@ export class Api {
     return requestJson<Model>(`${this.base}/v1/models/${segment(id)}`, { method: 'PATCH', json });
   }
 
+  /** A performance document (application/json) or .fap file (text/plain) on a level of detail of a head, as an animated GLB. */
+  makeClip(id: string, level: number, motion: Blob): Promise<Blob> {
+    const path = `${this.base}/v1/models/${segment(id)}/clip?lod=${level}`;
+    return requestBlob(path, { method: 'POST', body: motion, contentType: motion.type });
+  }
+
+  /** The face package of a level of detail in one file. */
+  getFace(id: string, level: number): Promise<Blob> {
+    return requestBlob(`${this.base}/v1/models/${segment(id)}/face.glb?lod=${level}`);
+  }
+
   /** The findings of the fit doctor. */
   async getReport(id: string): Promise<FitReport> {
     return (await requestJson<FitReport>(`${this.base}/v1/models/${segment(id)}/report.json`)).value;

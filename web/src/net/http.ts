@@ -70,8 +70,8 @@ export async function requestJson<T>(path: string, options: RequestOptions = {})
 }
 
 /** A request for bytes to save as a file, as a Blob: browsers keep large Blobs on disk. */
-export async function requestBlob(path: string): Promise<Blob> {
-  return (await send(path, {})).blob();
+export async function requestBlob(path: string, options: RequestOptions = {}): Promise<Blob> {
+  return (await send(path, options)).blob();
 }
 
 export async function requestBytes(path: string, signal?: AbortSignal): Promise<Uint8Array> {

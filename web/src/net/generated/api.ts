@@ -335,6 +335,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/v1/models/{model}/clip": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * A performance or .fap file on the face, as an animated glTF file for any viewer or engine
+         * @description Made for the answer, and not kept. A mesh with its materials, a skin whose joints are the feature points, and one animation; protocol/clips/README.md states what is exact. A performance needs an end: with nothing but idle life it must state its duration.
+         */
+        post: operations["createClip"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/v1/artefacts/{sha256}": {
         parameters: {
             query?: never;
@@ -3473,6 +3493,83 @@ export interface operations {
             412: components["responses"]["Problem"];
             416: components["responses"]["Problem"];
             503: components["responses"]["StorageUnavailable"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    createClip: {
+        parameters: {
+            query?: {
+                /** @description A level of detail by its number, as the model's package lists them; 0 is the full mesh. Not together with max_vertices */
+                lod?: components["parameters"]["lod"];
+                /** @description The largest level of detail with no more vertices; the smallest there is when all have more. rig.json says which it is */
+                max_vertices?: components["parameters"]["maxVertices"];
+                /** @description Faces a second of a performance; a .fap file has its own rate */
+                rate?: number;
+            };
+            header?: never;
+            path: {
+                /** @description Id of a model */
+                model: components["parameters"]["model"];
+            };
+            cookie?: never;
+        };
+        /** @description At most 16 MiB, and 50,000 faces */
+        requestBody: {
+            content: {
+                /**
+                 * @example {
+                 *       "format": "semblante.performance",
+                 *       "version": 1,
+                 *       "name": "Hello",
+                 *       "cues": [
+                 *         {
+                 *           "time": 0,
+                 *           "duration": 2000,
+                 *           "expression": "joy",
+                 *           "value": 0.8
+                 *         },
+                 *         {
+                 *           "time": 300,
+                 *           "duration": 120,
+                 *           "viseme": "e"
+                 *         },
+                 *         {
+                 *           "time": 420,
+                 *           "duration": 100,
+                 *           "viseme": "n_l"
+                 *         },
+                 *         {
+                 *           "time": 520,
+                 *           "duration": 260,
+                 *           "viseme": "o"
+                 *         }
+                 *       ]
+                 *     }
+                 */
+                "application/json": components["schemas"]["Performance"];
+                "text/plain": string;
+            };
+        };
+        responses: {
+            /** @description A glTF 2.0 binary */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "model/gltf-binary": unknown;
+                };
+            };
+            400: components["responses"]["Problem"];
+            404: components["responses"]["Problem"];
+            409: components["responses"]["Problem"];
+            411: components["responses"]["Problem"];
+            413: components["responses"]["Problem"];
+            415: components["responses"]["Problem"];
+            422: components["responses"]["Problem"];
+            429: components["responses"]["Problem"];
+            503: components["responses"]["StorageUnavailable"];
+            507: components["responses"]["InsufficientStorage"];
             default: components["responses"]["Problem"];
         };
     };

@@ -138,7 +138,7 @@ export class SpeakModel {
         this.api.speechTimeline(speech.id),
         this.api.speechPerformance(speech.id),
       ]);
-      const clip = new PerformanceClip(new Performance(await library, document));
+      const clip = new PerformanceClip(new Performance(await library, document), document);
       return { speech, timeline, clip: { clip, now: () => this.position } };
     } catch (error) {
       this.remove(speech);

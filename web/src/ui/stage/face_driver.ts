@@ -37,6 +37,8 @@ export class FaceDriver {
   private client: StreamClient | null = null;
   private speech: SpokenClip | null = null;
   private heard: (() => FaceFrame) | null = null;
+  /** The speech that had the face last, until a source takes it by an act of the user. */
+  private spoken: Clip | null = null;
   private held: FaceFrame | null = null;
   private idle: IdlePlayer | null = null;
   private loadIdle: (() => Promise<Library>) | null = null;
@@ -89,7 +91,10 @@ export class FaceDriver {
 
   /** To call when a source ends or is paused: if it has the face, `hand` takes the face. */
   release(source: MotionSource): void {
-    if (this.source.value === source) this.byHand();
+    if (this.source.value !== source) return;
+    const spoken = source === 'speech' ? this.shownClip : null;
+    this.byHand();
+    this.spoken = spoken;
   }
 
   /**
@@ -135,6 +140,11 @@ export class FaceDriver {
   get shownClip(): Clip | null {
     const source = this.source.value;
     return source === 'clip' ? this.clip.clip : source === 'speech' ? (this.speech?.clip ?? null) : null;
+  }
+
+  /** The clip to save: that on the face, or the speech that was the last to move it. */
+  get clipToSave(): Clip | null {
+    return this.shownClip ?? this.spoken;
   }
 
   /** Whether a clip or speech moves the face now. */
@@ -202,6 +212,7 @@ export class FaceDriver {
     if (source !== 'clip') this.clip.pause();
     if (source !== 'speech') this.speech = null;
     if (source !== 'microphone') this.heard = null;
+    this.spoken = null;
     this.source.set(source);
     for (const listener of [...this.listeners]) listener(source);
   }
