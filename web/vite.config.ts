@@ -2,6 +2,7 @@ import { existsSync, readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { defineConfig, type Plugin } from 'vite';
 import { aliases } from './aliases.ts';
+import { serviceWorker } from './service_worker.ts';
 
 const here = (path: string): string => fileURLToPath(new URL(path, import.meta.url));
 const library = process.env['SEMBLANTE_WASM'] ?? here('../build/wasm');
@@ -50,13 +51,13 @@ const server = process.env['SEMBLANTE_SERVER'] ?? 'http://127.0.0.1:8080';
 export default defineConfig({
   base: './',
   resolve: { alias: aliases, dedupe: ['three'] },
-  plugins: [runtimeAssets()],
+  plugins: [runtimeAssets(), serviceWorker(here('offline/worker/studio.ts'))],
   build: {
     target: 'es2022',
     chunkSizeWarningLimit: 1100,
     assetsInlineLimit: 0,
     rollupOptions: {
-      input: { index: here('index.html'), worker: here('offline/worker/studio.ts'), listen_worklet: here('../clients/js/listen/worklet.ts') },
+      input: { index: here('index.html'), listen_worklet: here('../clients/js/listen/worklet.ts') },
       output: { entryFileNames: ({ name }) => (name === 'index' ? 'assets/[name]-[hash].js' : '[name].js') },
     },
   },

@@ -1,5 +1,6 @@
 import { fileURLToPath } from 'node:url';
 import { defineConfig, type Plugin } from 'vite';
+import { serviceWorker } from './service_worker.ts';
 
 const here = (path: string): string => fileURLToPath(new URL(path, import.meta.url));
 
@@ -28,16 +29,12 @@ export default defineConfig({
   resolve: {
     alias: [{ find: /^semblante\/(\w+)$/, replacement: `${process.env['SEMBLANTE_PACKAGE'] ?? here('../build/npm/semblante')}/dist/$1.js` }],
   },
-  plugins: [preloadWasm()],
+  plugins: [preloadWasm(), serviceWorker(here('offline/worker/view.ts'))],
   build: {
     outDir: here('dist/view'),
     emptyOutDir: true,
     target: 'es2022',
     assetsInlineLimit: 0,
     modulePreload: { polyfill: false },
-    rollupOptions: {
-      input: { index: here('view/index.html'), worker: here('offline/worker/view.ts') },
-      output: { entryFileNames: ({ name }) => (name === 'worker' ? 'worker.js' : 'assets/[name]-[hash].js') },
-    },
   },
 });

@@ -91,8 +91,7 @@ describe('camera', () => {
   });
 
   test('Camera_WithoutReducedMotion_Flies', async () => {
-    const context = await browser.newContext({ viewport: { width: 900, height: 560 }, reducedMotion: 'no-preference' });
-    const studio = await StudioPage.openIn(context, `${server.url}/#sample/points`);
+    const studio = await StudioPage.open(browser, `${server.url}/#sample/points`, { width: 900, motion: 'no-preference' });
     await studio.waitForStage('ready');
     await studio.page.getByRole('button', { name: 'All 84' }).click();
     // Choosing and looking are one step of the page: no frame is drawn between.

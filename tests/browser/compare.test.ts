@@ -1,7 +1,7 @@
 import type { Page } from 'playwright-core';
 import { beforeAll, describe, expect, test } from 'vitest';
 import { eventually } from './support/patience.ts';
-import { StudioPage, type Inside } from './support/studio_page.ts';
+import { phone, StudioPage, type Inside } from './support/studio_page.ts';
 import { browser, server, useStudio } from './support/suite.ts';
 
 /** Gives the sample head weights of this kind, and a level of detail. */
@@ -205,8 +205,7 @@ describe('side by side', () => {
   });
 
   test('Compare_OnAPhone_StandsSideBySide_WithShortLabels_AndLeavesTheFacesRoom', async () => {
-    const context = await browser.newContext({ viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, reducedMotion: 'reduce' });
-    const studio = await StudioPage.openIn(context, `${server.url}/#sample/animate`);
+    const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, phone);
     await studio.waitForStage('ready');
     const { page } = studio;
     await page.locator('#compare-with').selectOption('level 1');

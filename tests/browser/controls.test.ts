@@ -1,5 +1,5 @@
 import { beforeAll, describe, expect, test } from 'vitest';
-import { StudioPage } from './support/studio_page.ts';
+import { phone, StudioPage } from './support/studio_page.ts';
 import { browser, server, useStudio } from './support/suite.ts';
 
 useStudio({ demo: false });
@@ -13,8 +13,7 @@ const unfold = ({ page }: StudioPage): Promise<void> =>
 
 describe('controls', () => {
   test('Touch_At390Pixels_EveryControlIs44PixelsWideAndTall', async () => {
-    const context = await browser.newContext({ viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, reducedMotion: 'reduce' });
-    const studio = await StudioPage.openIn(context, `${server.url}/#sample/animate`);
+    const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { ...phone, sharp: true });
     const { page } = studio;
     await studio.waitForStage('ready');
     for (const box of ['influence-view', 'units-view']) await page.locator(`#${box}`).check();

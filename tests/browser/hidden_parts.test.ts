@@ -1,5 +1,5 @@
 import { describe, expect, test } from 'vitest';
-import { StudioPage } from './support/studio_page.ts';
+import { phone, StudioPage } from './support/studio_page.ts';
 import { browser, server, useStudio } from './support/suite.ts';
 
 useStudio();
@@ -93,15 +93,7 @@ describe('hidden parts', () => {
   });
 
   test('Parts_Finger_HidesByTheList', async () => {
-    const context = await browser.newContext({
-      viewport: { width: 390, height: 844 },
-      hasTouch: true,
-      isMobile: true,
-      reducedMotion: 'reduce',
-      locale: 'pt-BR',
-      colorScheme: 'dark',
-    });
-    const studio = await StudioPage.openIn(context, `${server.url}/#sample/points`);
+    const studio = await StudioPage.open(browser, `${server.url}/#sample/points`, { ...phone, locale: 'pt-BR', dark: true });
     const { page } = studio;
     await studio.waitForStage('ready');
     const middle = await partAt(studio, 0.5, 0.5);

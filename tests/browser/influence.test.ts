@@ -1,6 +1,6 @@
 import { describe, expect, test } from 'vitest';
 import { eventually } from './support/patience.ts';
-import { StudioPage, type Inside } from './support/studio_page.ts';
+import { phone, StudioPage, type Inside } from './support/studio_page.ts';
 import { browser, server, useStudio } from './support/suite.ts';
 
 useStudio();
@@ -205,14 +205,13 @@ describe('influence', () => {
   });
 
   test('Influence_LongPressOnAPhone_ReadsAndNothingOverflows', async () => {
-    const context = await browser.newContext({ viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, reducedMotion: 'reduce' });
-    const studio = await StudioPage.openIn(context, server.url);
+    const studio = await StudioPage.open(browser, server.url, phone);
     await studio.waitForStage('ready');
     const { page } = studio;
     await page.locator('#influence-view').tap();
     await page.locator('.legend').waitFor();
     const brow = await spotOf(studio, '4.3');
-    const touch = await context.newCDPSession(page);
+    const touch = await studio.context.newCDPSession(page);
     await touch.send('Input.dispatchTouchEvent', { type: 'touchStart', touchPoints: [{ x: brow.x, y: brow.y }] });
     await page.locator('.reading').getByText('4.3').first().waitFor();
     await touch.send('Input.dispatchTouchEvent', { type: 'touchEnd', touchPoints: [] });

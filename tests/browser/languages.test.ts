@@ -13,8 +13,7 @@ const sizes = [
 ];
 
 async function open(width: number, height: number): Promise<StudioPage> {
-  const context = await browser.newContext({ viewport: { width, height }, locale: 'pt-BR', reducedMotion: 'reduce' });
-  const studio = await StudioPage.openIn(context, server.url);
+  const studio = await StudioPage.open(browser, server.url, { width, height, locale: 'pt-BR' });
   await studio.waitForStage('ready');
   return studio;
 }

@@ -14,7 +14,7 @@ describe('look', () => {
   for (const { name, width, height } of sizes) {
     for (const dark of [false, true]) {
       test(`Studio_${name}${dark ? 'Dark' : 'Light'}_FitsThePage`, async () => {
-        const studio = await StudioPage.open(browser, server.url, { width, height, dark });
+        const studio = await StudioPage.open(browser, server.url, { width, height, dark, sharp: true });
         await studio.waitForStage('ready');
         for (const tab of tabs) {
           await studio.page.locator(`#tab-${tab}`).click();
@@ -24,7 +24,7 @@ describe('look', () => {
               document.documentElement.scrollWidth - innerWidth,
               document.documentElement.scrollHeight - innerHeight,
             ]);
-          await studio.drawn(30);
+          await studio.drawn(3);
           expect(await overflow()).toEqual([0, 0]);
           await studio.keep(`${name}-${dark ? 'dark' : 'light'}-${tab}`);
         }

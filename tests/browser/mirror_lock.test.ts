@@ -1,5 +1,5 @@
 import { describe, expect, test } from 'vitest';
-import { StudioPage } from './support/studio_page.ts';
+import { phone, StudioPage } from './support/studio_page.ts';
 import { browser, server, useStudio } from './support/suite.ts';
 
 useStudio();
@@ -95,14 +95,7 @@ describe('locked pairs', () => {
   });
 
   test('Lock_Finger_TakesTheOtherSideAlong', async () => {
-    const context = await browser.newContext({
-      viewport: { width: 390, height: 844 },
-      hasTouch: true,
-      isMobile: true,
-      reducedMotion: 'reduce',
-      locale: 'pt-BR',
-    });
-    const studio = await StudioPage.openIn(context, `${server.url}/#sample/points?point=4.1`);
+    const studio = await StudioPage.open(browser, `${server.url}/#sample/points?point=4.1`, { ...phone, locale: 'pt-BR' });
     const { page } = studio;
     await openAt(studio, '4.1');
     await page.getByRole('button', { name: 'Mover juntos os pontos da esquerda e da direita' }).tap();

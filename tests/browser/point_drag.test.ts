@@ -1,6 +1,6 @@
 import type { CDPSession } from 'playwright-core';
 import { describe, expect, test } from 'vitest';
-import { StudioPage } from './support/studio_page.ts';
+import { phone, StudioPage } from './support/studio_page.ts';
 import { browser, server, useStudio } from './support/suite.ts';
 
 useStudio();
@@ -118,17 +118,10 @@ describe('drag of a point', () => {
   });
 
   test('Drag_Finger_SeesThePointBesideIt_AndASecondFingerMeansTheView', async () => {
-    const context = await browser.newContext({
-      viewport: { width: 390, height: 844 },
-      hasTouch: true,
-      isMobile: true,
-      reducedMotion: 'reduce',
-      colorScheme: 'dark',
-    });
-    const studio = await StudioPage.openIn(context, `${server.url}/#sample/points?point=8.1`);
+    const studio = await StudioPage.open(browser, `${server.url}/#sample/points?point=8.1`, { ...phone, dark: true });
     const { page } = studio;
     await openAt(studio, '8.1');
-    const session = await context.newCDPSession(page);
+    const session = await studio.context.newCDPSession(page);
     const from = await spotOf(studio, '8.1');
     await touch(session, 'touchStart', [from]);
     for (let i = 1; i <= 8; i += 1) await touch(session, 'touchMove', [{ x: from.x - 5 * i, y: from.y - 4 * i }]);

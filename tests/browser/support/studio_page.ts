@@ -1,6 +1,6 @@
 import { mkdirSync, readFileSync } from 'node:fs';
 import { basename, join } from 'node:path';
-import { chromium as driver, type Browser, type BrowserContext, type Page } from 'playwright-core';
+import { chromium as driver, type Browser, type BrowserContext, type BrowserContextOptions, type Page } from 'playwright-core';
 import { buildDir, chromium } from './paths.ts';
 import { eventually, patience } from './patience.ts';
 
@@ -17,13 +17,28 @@ export interface OpenOptions {
   width?: number;
   height?: number;
   dark?: boolean;
+  locale?: string;
+  /** A touch screen. */
+  touch?: boolean;
+  motion?: BrowserContextOptions['reducedMotion'];
+  /**
+   * Whether the page is drawn with all its pixels, for tests of layout and of single pixels. Otherwise it has half of them
+   * along each side: without a graphics card most of a test's time is the drawing of pixels.
+   */
+  sharp?: boolean;
   /** Console errors that the test expects; a refused request, for example, is logged as a failed one. */
   allowed?: RegExp;
 }
 
+/** A phone, for `StudioPage.open`. */
+export const phone = { width: 390, height: 844, touch: true } as const;
+
+const coarse = 0.5;
+
 /** A page of the studio that records all errors of its console and scripts. */
 export class StudioPage {
   readonly errors: string[] = [];
+  private coarseScreen: { width: number; height: number; mobile: boolean } | null = null;
 
   private constructor(
     readonly context: BrowserContext,
@@ -31,15 +46,21 @@ export class StudioPage {
   ) {}
 
   static async open(browser: Browser, url: string, options: OpenOptions = {}): Promise<StudioPage> {
+    const viewport = { width: options.width ?? 880, height: options.height ?? 560 };
     const context = await browser.newContext({
-      viewport: { width: options.width ?? 880, height: options.height ?? 560 },
+      viewport,
       colorScheme: options.dark ? 'dark' : 'light',
-      reducedMotion: 'reduce',
+      reducedMotion: options.motion ?? 'reduce',
+      deviceScaleFactor: options.sharp ? 1 : coarse,
+      ...(options.locale ? { locale: options.locale } : {}),
+      ...(options.touch ? { isMobile: true, hasTouch: true } : {}),
     });
-    return StudioPage.openIn(context, url, options);
+    const studio = await StudioPage.openIn(context, url, options);
+    if (!options.sharp) studio.coarseScreen = { ...viewport, mobile: options.touch ?? false };
+    return studio;
   }
 
-  /** In a context of the test's own, such as one of a touch screen. */
+  /** In a context of the test's own. */
   static async openIn(context: BrowserContext, url: string, options: Pick<OpenOptions, 'allowed'> = {}): Promise<StudioPage> {
     context.setDefaultTimeout(patience);
     const page = await context.newPage();
@@ -222,7 +243,16 @@ export class StudioPage {
   async keep(name: string): Promise<void> {
     const folder = join(buildDir, 'screenshots');
     mkdirSync(folder, { recursive: true });
-    await this.page.screenshot({ path: join(folder, `${name}.png`) });
+    const path = join(folder, `${name}.png`);
+    if (!this.coarseScreen) return void (await this.page.screenshot({ path }));
+    // Text is drawn with all its pixels; the stage keeps those that it has.
+    const devtools = await this.context.newCDPSession(this.page);
+    const draw = (deviceScaleFactor: number): Promise<unknown> =>
+      devtools.send('Emulation.setDeviceMetricsOverride', { ...this.coarseScreen!, deviceScaleFactor });
+    await draw(1);
+    await this.page.screenshot({ path });
+    await draw(coarse);
+    await devtools.detach();
   }
 
   close(): Promise<void> {

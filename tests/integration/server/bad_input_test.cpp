@@ -110,6 +110,7 @@ std::string recording_of(int port, const std::string& stream) {
 TEST_F(BadInput, ExamplesOfTheDocument_AreGoodInput) {
   const auto document = json_of(request(port(), "GET", "/openapi.json"));
   const auto model = import_grid(port());
+  ASSERT_EQ(parametrize_grid(port(), model).value("state", ""), "done");  // for the example of a clip
   const auto set =
       json_of(request(port(), "POST", "/v1/expressions", R"({"name":"own","displacements":{}})", json_type));
   request(port(), "POST", "/v1/streams", R"({"name":"kept"})", json_type);

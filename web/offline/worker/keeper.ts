@@ -1,3 +1,5 @@
+import { keptHeader } from '../kept_header.ts';
+
 /** What a service worker keeps, and under which address. */
 export interface Keeping {
   cacheName: string;
@@ -10,8 +12,6 @@ export interface Keeping {
   madeOldBy(url: URL): (kept: URL) => boolean;
 }
 
-/** The header of an answer that was kept, given because the network has none. */
-const keptHeader = 'Semblante-Kept';
 /** ms until an answer to a change has probably come. */
 const changeTime = 1500;
 

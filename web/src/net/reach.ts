@@ -1,5 +1,4 @@
-/** The header that the service worker gives an answer which it had kept, because the server gave none. */
-const keptHeader = 'Semblante-Kept';
+import { keptHeader } from '../../offline/kept_header.ts';
 
 type Listener = (reached: boolean) => void;
 const listeners = new Set<Listener>();
