@@ -13,7 +13,7 @@ const unfold = ({ page }: StudioPage): Promise<void> =>
 
 describe('controls', () => {
   test('Touch_At390Pixels_EveryControlIs44PixelsWideAndTall', async () => {
-    const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { ...phone, sharp: true });
+    const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, phone);
     const { page } = studio;
     await studio.waitForStage('ready');
     for (const box of ['influence-view', 'units-view']) await page.locator(`#${box}`).check();

@@ -14,7 +14,7 @@ describe('look', () => {
   for (const { name, width, height } of sizes) {
     for (const dark of [false, true]) {
       test(`Studio_${name}${dark ? 'Dark' : 'Light'}_FitsThePage`, async () => {
-        const studio = await StudioPage.open(browser, server.url, { width, height, dark, sharp: true });
+        const studio = await StudioPage.open(browser, server.url, { width, height, dark });
         await studio.waitForStage('ready');
         for (const tab of tabs) {
           await studio.page.locator(`#tab-${tab}`).click();

@@ -22,10 +22,10 @@ export interface OpenOptions {
   touch?: boolean;
   motion?: BrowserContextOptions['reducedMotion'];
   /**
-   * Whether the page is drawn with all its pixels, for tests of layout and of single pixels. Otherwise it has half of them
-   * along each side: without a graphics card most of a test's time is the drawing of pixels.
+   * Whether the page has half its pixels along each side (and so have its pictures), for tests that need neither single pixels nor an exact layout: without
+   * a graphics card most of a test's time is the drawing of pixels.
    */
-  sharp?: boolean;
+  coarse?: boolean;
   /** Console errors that the test expects; a refused request, for example, is logged as a failed one. */
   allowed?: RegExp;
 }
@@ -33,12 +33,9 @@ export interface OpenOptions {
 /** A phone, for `StudioPage.open`. */
 export const phone = { width: 390, height: 844, touch: true } as const;
 
-const coarse = 0.5;
-
 /** A page of the studio that records all errors of its console and scripts. */
 export class StudioPage {
   readonly errors: string[] = [];
-  private coarseScreen: { width: number; height: number; mobile: boolean } | null = null;
 
   private constructor(
     readonly context: BrowserContext,
@@ -46,18 +43,15 @@ export class StudioPage {
   ) {}
 
   static async open(browser: Browser, url: string, options: OpenOptions = {}): Promise<StudioPage> {
-    const viewport = { width: options.width ?? 880, height: options.height ?? 560 };
     const context = await browser.newContext({
-      viewport,
+      viewport: { width: options.width ?? 880, height: options.height ?? 560 },
       colorScheme: options.dark ? 'dark' : 'light',
       reducedMotion: options.motion ?? 'reduce',
-      deviceScaleFactor: options.sharp ? 1 : coarse,
+      deviceScaleFactor: options.coarse ? 0.5 : 1,
       ...(options.locale ? { locale: options.locale } : {}),
       ...(options.touch ? { isMobile: true, hasTouch: true } : {}),
     });
-    const studio = await StudioPage.openIn(context, url, options);
-    if (!options.sharp) studio.coarseScreen = { ...viewport, mobile: options.touch ?? false };
-    return studio;
+    return StudioPage.openIn(context, url, options);
   }
 
   /** In a context of the test's own. */
@@ -243,16 +237,7 @@ export class StudioPage {
   async keep(name: string): Promise<void> {
     const folder = join(buildDir, 'screenshots');
     mkdirSync(folder, { recursive: true });
-    const path = join(folder, `${name}.png`);
-    if (!this.coarseScreen) return void (await this.page.screenshot({ path }));
-    // Text is drawn with all its pixels; the stage keeps those that it has.
-    const devtools = await this.context.newCDPSession(this.page);
-    const draw = (deviceScaleFactor: number): Promise<unknown> =>
-      devtools.send('Emulation.setDeviceMetricsOverride', { ...this.coarseScreen!, deviceScaleFactor });
-    await draw(1);
-    await this.page.screenshot({ path });
-    await draw(coarse);
-    await devtools.detach();
+    await this.page.screenshot({ path: join(folder, `${name}.png`) });
   }
 
   close(): Promise<void> {

@@ -1,0 +1,100 @@
+import { execFileSync } from 'node:child_process';
+import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { quickSet } from '@protocol/generated/mpeg4.ts';
+import { portuguese } from '../../web/src/words/portuguese.ts';
+import { chooseFile, FingerHand, MouseHand, type Hand } from './support/hands.ts';
+import { buildDir } from './support/paths.ts';
+import { eventually } from './support/patience.ts';
+import { phone, StudioPage, type OpenOptions } from './support/studio_page.ts';
+import { browser, server, useStudio } from './support/suite.ts';
+
+/** What a person does, at most, until a bare avatar talks: the measure of the way through the studio. */
+const mostActs = 13;
+/** The server proposes the other points from so many. */
+const pointsByHand = 8;
+
+const folder = mkdtempSync(join(tmpdir(), 'semblante-journey-'));
+const avatar = join(folder, 'sample-body.glb');
+let places: Record<string, { position: [number, number, number] }>;
+
+useStudio({ voice: join(buildDir, 'bin/semblante-voice-espeak') });
+beforeAll(() => {
+  execFileSync(join(buildDir, 'bin/semblante-sample-head'), [folder, 'body']);
+  ({ points: places } = JSON.parse(readFileSync(join(folder, 'sample-body.fps.json'), 'utf8')) as { points: typeof places });
+});
+afterAll(() => rmSync(folder, { recursive: true, force: true }));
+
+interface Way {
+  name: string;
+  options: OpenOptions;
+  makeHand: () => Hand;
+}
+const ways: Way[] = [
+  { name: 'ByMouse_English', options: { width: 1440, height: 900, locale: 'en-US', coarse: true }, makeHand: () => new MouseHand() },
+  { name: 'ByFinger_Portuguese', options: { ...phone, locale: 'pt-BR', coarse: true }, makeHand: () => new FingerHand() },
+];
+
+interface Recordings {
+  recordings: { state: string; frames: number; name: string }[];
+}
+
+describe('from a bare avatar to a talking face and a recording', () => {
+  for (const { name, options, makeHand } of ways) {
+    test(`Journey_${name}`, async () => {
+      const studio = await StudioPage.open(browser, server.url, options);
+      const { page } = studio;
+      const hand = makeHand();
+      const isNarrow = options.width! < 1080;
+      const words = (english: keyof typeof portuguese): string => (options.locale === 'pt-BR' ? portuguese[english] : english);
+      const button = (english: keyof typeof portuguese): ReturnType<typeof page.getByRole> =>
+        page.getByRole('button', { name: words(english), exact: true });
+      await studio.waitForStage('ready');
+
+      // 1. The avatar.
+      if (isNarrow) await hand.press(page.locator('#tab-heads'));
+      await chooseFile(page, hand, page.locator('.shelf-panel .drop'), avatar);
+      await studio.waitForState('ready');
+      await studio.waitForStage('ready');
+      const points = page.locator('#tab-points');
+      if ((await points.getAttribute('aria-selected')) !== 'true') await hand.press(points);
+
+      // 2. The first points, each where the panel asks for it.
+      const start = button('Start');
+      if (await start.isVisible()) await hand.press(start);
+      for (const [i, id] of quickSet.slice(0, pointsByHand).entries()) {
+        await page.waitForFunction((asked) => location.hash.includes(`point=${asked}`), id);
+        await studio.drawn(3);
+        await hand.placeAt(studio, places[id]!.position);
+        await page.getByText(new RegExp(`\\b${i + 1} .*84`)).first().waitFor();
+      }
+      await hand.press(button('Propose missing points'));
+      await button('Confirm all').waitFor();
+      await hand.press(button('Parametrize'));
+      await studio.waitForState('parametrized');
+      await studio.waitForStage('ready');
+
+      // 3. It talks.
+      await page.locator('#tab-animate[aria-selected="true"]').waitFor();
+      await hand.press(button('Speak')); // the example that stands in the empty field
+      await page.waitForFunction(() => (window as unknown as { semblante: { driver: { source: { value: string } } } }).semblante.driver.source.value === 'speech');
+      await studio.keep(`journey-${name}`);
+      // On a phone the heads are a tab of their own.
+      expect(hand.acts).toBeLessThanOrEqual(isNarrow ? mostActs + 1 : mostActs);
+
+      // 4. A recording.
+      await hand.press(page.locator('#tab-live'));
+      await hand.press(page.locator('.recordings').getByRole('button', { name: words('Record'), exact: true }));
+      const recorded = async (): Promise<Recordings['recordings']> =>
+        ((await (await fetch(`${server.url}/v1/streams/demo/recordings`)).json()) as Recordings).recordings;
+      await eventually('something is recorded', async () => (await recorded()).some(({ state, frames }) => state === 'recording' && frames > 10));
+      await hand.press(page.locator('.recordings').getByRole('button', { name: words('Stop recording {stream}').replace('{stream}', 'Demo') }));
+      await eventually('the recording is finished', async () => (await recorded()).every(({ state }) => state === 'finished'));
+      await page.locator('.recordings .recording').first().waitFor();
+      expect(studio.errors).toEqual([]);
+      await studio.close();
+    });
+  }
+});
