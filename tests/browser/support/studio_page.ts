@@ -22,8 +22,8 @@ export interface OpenOptions {
   touch?: boolean;
   motion?: BrowserContextOptions['reducedMotion'];
   /**
-   * Whether the page has half its pixels along each side (and so have its pictures), for tests that need neither single pixels nor an exact layout: without
-   * a graphics card most of a test's time is the drawing of pixels.
+   * Whether the page and its pictures have half their pixels along each side, for tests that need neither single pixels nor an
+   * exact layout: without a graphics card most of a test's time is the drawing of pixels.
    */
   coarse?: boolean;
   /** Console errors that the test expects; a refused request, for example, is logged as a failed one. */
