@@ -1,6 +1,6 @@
 #pragma once
 
-// For http_client.cpp and clients/native/client/stream_socket.cpp: Boost stays within these.
+// For http_send.cpp and clients/native/client/stream_socket.cpp: Boost stays within these.
 
 #include <memory>
 #include <optional>

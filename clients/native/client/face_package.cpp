@@ -5,8 +5,8 @@
 #include <span>
 
 #include "clients/runtime/face_mesh.h"
+#include "clients/runtime/sha256.h"
 #include "protocol/cpp/rig_material.h"
-#include "protocol/hash/sha256.h"
 
 namespace semblante::client {
 namespace {
@@ -78,7 +78,7 @@ Result<Face> Face::create(const PackageBytes& bytes) {
     error.where = "rig.json" + error.where;
     return error;
   }
-  const Sha256 mesh_hash = sha256(as_bytes(bytes.mesh_drc));
+  const Sha256 mesh_hash = runtime::sha256(as_bytes(bytes.mesh_drc));
   if (mesh_hash != rig->mesh.sha256) {
     return Error{ErrorCode::mismatch, "mesh.drc", "the SHA-256 differs from the one in rig.json"};
   }
@@ -185,7 +185,7 @@ std::vector<std::string> fetch_images(const HttpClient& http, Face& face) {
     auto bytes = http.fetch("/v1/artefacts/" + to_hex(info.sha256), std::min(info.bytes, max_image_bytes));
     if (!bytes) {
       warnings.push_back("image " + std::to_string(i) + ": " + bytes.error().message);
-    } else if (sha256(as_bytes(*bytes)) != info.sha256) {
+    } else if (runtime::sha256(as_bytes(*bytes)) != info.sha256) {
       warnings.push_back("image " + std::to_string(i) + ": the SHA-256 differs from the one in rig.json");
     } else {
       face.model().images[i] = {info.mime_type, {bytes->begin(), bytes->end()}};
