@@ -34,24 +34,10 @@ def run(*arguments, **options):
 
 
 def draco_for_arm64():
-    """The folder of its libraries, unpacked in the build folder. The system's own package lists are not touched."""
+    """The folder of its libraries, unpacked in the build folder."""
     root = BUILD / "aarch64/packages"
-    libraries = root / "usr/lib/aarch64-linux-gnu"
-    if not (libraries / "ready").exists():
-        shutil.rmtree(root, ignore_errors=True)
-        for folder in ("state/lists/partial", "cache/archives/partial"):
-            (root / folder).mkdir(parents=True)
-        (root / "status").touch()
-        settings = [f"-oAPT::{name}=arm64" for name in ("Architecture", "Architectures")] + [
-            "-oAPT::Sandbox::User=root", f"-oDir::State={root}/state", f"-oDir::State::status={root}/status", f"-oDir::Cache={root}/cache"]
-        run("apt-get", *settings, "-qq", "update")
-        run("apt-get", *settings, "-qq", "download", "libdraco-dev", "libdraco7", cwd=root)
-        for package in root.glob("*.deb"):
-            run("dpkg-deb", "-x", package, root)
-        for file in (libraries / "cmake/draco").glob("draco-targets*.cmake"):  # written for /usr
-            file.write_text(re.sub(r'"/usr(?=["/])', f'"{root}/usr', file.read_text()))
-        (libraries / "ready").touch()
-    return libraries
+    run(TOP / "deploy/lib/arm64_packages.sh", root, "libdraco-dev", "libdraco7")
+    return root / "usr/lib/aarch64-linux-gnu"
 
 
 def compile_program(compiler, source, prefix, output, *libraries):
