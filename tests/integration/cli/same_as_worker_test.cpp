@@ -27,10 +27,10 @@ glm::dvec3 along_z(const glm::dvec3& p) { return {p.x, -p.z, p.y}; }
 std::string head_obj(bool is_mask) {
   const Model model = testing::sample_head_model();
   std::ostringstream text;
-  text << std::setprecision(9) << "mtllib nowhere.mtl\n";
+  text << std::setprecision(9);
   for (const glm::vec3& position : model.positions) {
     const glm::dvec3 p = along_z(position);
-    text << "v " << p.x << " " << p.y << " " << p.z << "\n";
+    text << "v " << p.x << " " << p.y << " " << p.z << " 1 1 1\n";  // with a colour, for a warning of the import
   }
   for (const Triangle& t : model.triangles) {
     const bool is_front = model.positions[t[0]].z > 0.02F;
@@ -135,11 +135,11 @@ struct SameAsWorker : ::testing::Test {
 TEST_F(SameAsWorker, BodyAlongZ) {
   const Warnings warnings = compare(head_obj(false), head_points());
   ASSERT_GE(warnings.package.size(), 2U);
-  EXPECT_THAT(warnings.import, ElementsAre(HasSubstr("nowhere.mtl"), HasSubstr("the head stands along +Z")));
+  EXPECT_THAT(warnings.import, ElementsAre(HasSubstr("vertex colours"), HasSubstr("the head stands along +Z")));
   // Once each, though the model was read twice.
-  EXPECT_THAT(warnings.package[0], HasSubstr("nowhere.mtl"));
+  EXPECT_THAT(warnings.package[0], HasSubstr("vertex colours"));
   EXPECT_THAT(warnings.package[1], HasSubstr("the head stands along +Z"));
-  EXPECT_THAT(warnings.package, Contains(HasSubstr("nowhere.mtl")).Times(1));
+  EXPECT_THAT(warnings.package, Contains(HasSubstr("vertex colours")).Times(1));
 }
 
 TEST_F(SameAsWorker, PointsThatShowAnotherStance) {

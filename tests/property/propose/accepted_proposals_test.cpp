@@ -49,6 +49,13 @@ Model coarsened(const Model& model, const Surface& surface, double cell) {
   return coarse;
 }
 
+std::uint32_t nearest_vertex(const Model& model, const glm::vec3& position) {
+  const auto nearest = std::min_element(
+      model.positions.begin(), model.positions.end(),
+      [&](const auto& a, const auto& b) { return glm::distance(a, position) < glm::distance(b, position); });
+  return static_cast<std::uint32_t>(nearest - model.positions.begin());
+}
+
 /// What the doctor says of points that cannot stay where they are.
 bool is_refusal(FindingCode code) {
   return code == FindingCode::point_refused || code == FindingCode::point_on_no_surface ||
@@ -140,7 +147,12 @@ TEST(AcceptedProposals, OfAllHeadsAtSeveralLevelsOfDetail) {
       const Model coarse = coarsened(study.model, study.surface, cell * study.eye_separation);
       const Surface surface = build_surface(coarse);
       std::vector<MarkedPoint> marked;
-      for (const FeaturePoint& p : known) marked.push_back({p.id, std::nullopt, glm::dvec3(p.position)});
+      for (const FeaturePoint& p : known) {
+        if (p.vertex)
+          marked.push_back({p.id, nearest_vertex(coarse, p.position), std::nullopt});
+        else
+          marked.push_back({p.id, std::nullopt, glm::dvec3(p.position)});
+      }
       const auto placed = place_feature_points(coarse, surface, marked, nullptr);
       ASSERT_TRUE(placed) << study.name << ": " << placed.error().message;
       expect_accepted(study.name + ", cells of " + std::to_string(cell) + " ES0", coarse, *placed);
