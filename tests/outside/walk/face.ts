@@ -86,6 +86,8 @@ async function fetchPackage(client: Client, model: Schemas['Model'], glbs: Glbs)
   expect('weights', good(await client.GET('/v1/models/{model}/weights', { params, parseAs })));
   glbs['face.glb'] = expect('face.glb', good(await client.GET('/v1/models/{model}/face.glb', { params, parseAs })));
   glbs['preview.glb'] = new Uint8Array(good(await client.GET('/v1/models/{model}/preview.glb', { params, parseAs })));
+  const smile = { format: 'semblante.performance' as const, version: 1 as const, cues: [{ time: 0, duration: 200, expression: 'joy' as const }] };
+  glbs['clip.glb'] = new Uint8Array(good(await client.POST('/v1/models/{model}/clip', { params, body: smile, parseAs })));
   const rig = good(await client.GET('/v1/models/{model}/rig.json', { params }));
   assert.equal(rig.mesh.sha256, artefacts['mesh.drc']?.sha256);
   assert.equal(rig.visemes[10]?.name, 'a');
