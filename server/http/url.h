@@ -16,7 +16,4 @@ struct Target {
 /// nullopt for anything that is not an origin-form target: no leading '/', a broken escape, a NUL byte.
 std::optional<Target> parse_target(std::string_view target);
 
-/// nullopt for a broken escape. '+' stays '+' unless `plus_is_space`.
-std::optional<std::string> percent_decode(std::string_view text, bool plus_is_space);
-
 }  // namespace semblante::http

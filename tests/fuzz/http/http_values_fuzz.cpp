@@ -9,6 +9,7 @@
 #include <string_view>
 #include <variant>
 
+#include "core/types/percent_decode.h"
 #include "server/http/address_range.h"
 #include "server/http/conditional.h"
 #include "server/http/content_coding.h"
@@ -28,7 +29,7 @@ void read_target(std::string_view text) {
   const auto target = http::parse_target(text);
   if (target) expect(target->path.starts_with('/') && target->path.find('\0') == std::string::npos);
   for (const bool plus_is_space : {false, true}) {
-    const auto decoded = http::percent_decode(text, plus_is_space);
+    const auto decoded = percent_decode(text, plus_is_space);
     expect(!decoded || decoded->size() <= text.size());
   }
 }
