@@ -8,6 +8,7 @@
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/websocket.hpp>
 
+#include "clients/native/client/stream_refusal.h"
 #include "protocol/cpp/messages.h"
 #include "protocol/http/connection.h"
 
@@ -111,17 +112,12 @@ struct StreamSocket::Impl {
     auto shaken = wait("the stream refuses the connection",
                        [&](auto done) { socket.async_handshake(response, url.authority(), target, std::move(done)); });
     if (!shaken) {
-      if (response.result() == http::status::not_found) {
-        return Error{ErrorCode::missing, where, "there is no such stream"};
-      }
-      if (response.result() == http::status::unauthorized || response.result() == http::status::forbidden) {
-        return Error{ErrorCode::invalid_argument, where, "the server does not accept the token, or asks for one"};
-      }
+      if (auto refusal = stream_refusal(static_cast<int>(response.result_int()), where)) return *std::move(refusal);
       return shaken;
     }
     const auto agreed = response[http::field::sec_websocket_protocol];
     if (std::string_view(agreed.data(), agreed.size()) != protocol) {
-      return Error{ErrorCode::mismatch, where, "the server does not support the subprotocol " + std::string(protocol)};
+      return no_such_subprotocol(protocol, where);
     }
     return Unit{};
   }

@@ -6,6 +6,7 @@
 #include <random>
 #include <utility>
 
+#include "clients/native/client/stream_refusal.h"
 #include "clients/native/plain/http_answer.h"
 #include "clients/native/plain/tcp_socket.h"
 #include "clients/native/plain/web_socket_key.h"
@@ -135,15 +136,10 @@ Result<StreamSocket> StreamSocket::open(const ServerAddress& server, std::string
     is_whole = *taken;
   }
   const HttpResponse& response = answer.response();
-  if (response.status == 404) return Error{ErrorCode::missing, where, "there is no such stream"};
-  if (response.status == 401 || response.status == 403) {
-    return Error{ErrorCode::invalid_argument, where, "the server does not accept the token, or asks for one"};
-  }
+  if (auto refusal = stream_refusal(response.status, where)) return *std::move(refusal);
   if (response.status != 101) return refused("the server answered " + std::to_string(response.status));
   if (response.header("sec-websocket-accept") != web_socket_accept(key)) return refused("this is no WebSocket");
-  if (response.header("sec-websocket-protocol") != protocol) {
-    return Error{ErrorCode::mismatch, where, "the server does not support the subprotocol " + protocol};
-  }
+  if (response.header("sec-websocket-protocol") != protocol) return no_such_subprotocol(protocol, where);
   impl->reader.take(as_bytes(answer.rest()));
   return StreamSocket(std::move(impl));
 }

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "core/types/result.h"
+
+namespace semblante::client {
+
+/// What the HTTP status of a refused WebSocket says about the stream at `where`; empty if it says nothing about it.
+inline std::optional<Error> stream_refusal(int status, const std::string& where) {
+  if (status == 404) return Error{ErrorCode::missing, where, "there is no such stream"};
+  if (status == 401 || status == 403)
+    return Error{ErrorCode::invalid_argument, where, "the server does not accept the token, or asks for one"};
+  return std::nullopt;
+}
+
+inline Error no_such_subprotocol(std::string_view protocol, const std::string& where) {
+  return {ErrorCode::mismatch, where, "the server does not support the subprotocol " + std::string(protocol)};
+}
+
+}  // namespace semblante::client
