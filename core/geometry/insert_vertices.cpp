@@ -30,6 +30,16 @@ Vector sum_of(const std::vector<Vector>& values, const InsertedVertex& vertex) {
   return Vector(sum);
 }
 
+/// The corners with a share, in an order that does not depend on the triangle: equal for all triangles at an edge that
+/// have these corners there.
+Triangle key_of(Triangle corners, const glm::dvec3& shares) {
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (shares[static_cast<int>(c)] == 0.0) corners[c] = Model::no_index;
+  }
+  std::sort(corners.begin(), corners.end());
+  return corners;
+}
+
 void make_smooth_normals(Model& model, const Surface& surface) {
   model.normals = smooth_normals(model, surface);
   model.normal_triangles.clear();
@@ -104,25 +114,23 @@ class Splitter {
   template <class Vector, class Make>
   static std::uint32_t add_attribute(std::vector<Vector>& values, const Triangle& corners, const glm::dvec3& shares,
                                      std::map<Triangle, std::uint32_t>& made, const Make& make) {
-    Triangle key = corners;
     for (std::size_t c = 0; c < 3; ++c) {
-      if (shares[static_cast<int>(c)] == 0.0)
-        key[c] = Model::no_index;
-      else if (corners[c] == Model::no_index)
-        return Model::no_index;
+      if (shares[static_cast<int>(c)] != 0.0 && corners[c] == Model::no_index) return Model::no_index;
     }
-    std::sort(key.begin(), key.end());
+    const Triangle key = key_of(corners, shares);
     const auto [entry, is_new] = made.try_emplace(key, static_cast<std::uint32_t>(values.size()));
     if (is_new) values.push_back(make(sum_of(values, {corners, shares}), values[key[0]]));
     return entry->second;
   }
 
   std::uint32_t uv_at(std::uint32_t triangle, const glm::dvec3& shares, std::map<Triangle, std::uint32_t>& made) {
+    if (model_.uv_triangles.empty()) return Model::no_index;
     return add_attribute(model_.uvs, model_.uv_triangles[triangle], shares, made,
                          [](const glm::vec2& sum, const glm::vec2&) { return sum; });
   }
 
   std::uint32_t normal_at(std::uint32_t triangle, const glm::dvec3& shares, std::map<Triangle, std::uint32_t>& made) {
+    if (model_.normal_triangles.empty()) return Model::no_index;
     return add_attribute(model_.normals, model_.normal_triangles[triangle], shares, made,
                          [](const glm::vec3& sum, const glm::vec3& one) {
                            const float length = glm::length(sum);
@@ -164,9 +172,9 @@ class Splitter {
     const std::uint32_t vertex =
         add_vertex(made, glm::vec3(place_on(made.corners, shares)), SurfaceVertexId(next_surface_vertex_++));
     std::map<Triangle, std::uint32_t> none;
-    const std::uint32_t uv = model_.uv_triangles.empty() ? Model::no_index : uv_at(triangle, shares, none);
+    const std::uint32_t uv = uv_at(triangle, shares, none);
     none.clear();
-    const std::uint32_t normal = model_.normal_triangles.empty() ? Model::no_index : normal_at(triangle, shares, none);
+    const std::uint32_t normal = normal_at(triangle, shares, none);
     split(triangle, shares, vertex, uv, normal);
     return vertex;
   }
@@ -192,7 +200,8 @@ class Splitter {
     return result;
   }
 
-  /// What the triangles at one edge share: by the corners at its ends.
+  /// The new vertex, UV and normal of an edge that is split, by key_of() of the triangles at it: triangles with the
+  /// same corners there get the same ones, on the two sides of a seam each its own.
   struct Made {
     std::map<Triangle, std::uint32_t>&vertices, &uvs, &normals;
   };
@@ -213,16 +222,9 @@ class Splitter {
       }
     }
     if (found != 2) return;
-    Triangle key = corners;
-    for (std::size_t c = 0; c < 3; ++c) {
-      if (shares[static_cast<int>(c)] == 0.0) key[c] = Model::no_index;
-    }
-    std::sort(key.begin(), key.end());
-    const auto [entry, is_new] = made.vertices.try_emplace(key, 0U);
+    const auto [entry, is_new] = made.vertices.try_emplace(key_of(corners, shares), 0U);
     if (is_new) entry->second = add_vertex({corners, shares}, position, on_surface);
-    const std::uint32_t uv = model_.uv_triangles.empty() ? Model::no_index : uv_at(t, shares, made.uvs);
-    const std::uint32_t normal = model_.normal_triangles.empty() ? Model::no_index : normal_at(t, shares, made.normals);
-    split(t, shares, entry->second, uv, normal);
+    split(t, shares, entry->second, uv_at(t, shares, made.uvs), normal_at(t, shares, made.normals));
   }
 
   /// The parts of each given triangle in its place, and the primitives over them.
