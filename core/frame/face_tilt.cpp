@@ -23,7 +23,8 @@ constexpr std::size_t least_pairs = 3;  ///< of points marked on both sides
 constexpr double most_misfit = 0.25;
 constexpr double most_misfit_of_nod = 0.16;  ///< pitch shows by proportions alone
 constexpr double least_tilt = 6.0;           ///< degrees; a smaller one may be the marks' inaccuracy
-constexpr double least_nod = 12.0;           ///< degrees; of a head that is tilted to a side also, least_tilt
+/// Degrees, of a head that only nods; if it is turned or tilted to a side too, least_tilt is enough.
+constexpr double least_nod = 12.0;
 
 /// Points whose place on a head is about the same for everybody: no hair, no tongue, no teeth, no pivot.
 bool is_of_the_face(FeaturePointId id) {

@@ -10,7 +10,7 @@ namespace semblante {
 /// their loudness.
 class LiveMouth {
  public:
-  /// Weights of the visemes, 1 in all: that of silence is what is left.
+  /// Weights of the visemes. Their sum is 1; the weight of silence is 1 minus the others.
   using Weights = std::array<float, VisemeNetwork::visemes>;
   const Weights& follow(const VisemeListener::Heard& heard);
 

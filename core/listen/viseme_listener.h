@@ -23,7 +23,7 @@ class VisemeListener {
 
   struct Heard {
     double time;                                            ///< ms of the sound: the middle of 10 ms
-    std::array<float, VisemeNetwork::visemes> probability;  ///< of the visemes of MPEG-4, 1 in all
+    std::array<float, VisemeNetwork::visemes> probability;  ///< of each viseme of MPEG-4; the sum is 1
     float level;                                            ///< dB of full scale
   };
 

@@ -17,7 +17,7 @@ class VisemeNetwork {
   /// The answer to a frame is of the sound this many frames before: it has heard what comes after it.
   static constexpr std::size_t look_ahead = 4;
 
-  /// The probability of each viseme, of 1 in all.
+  /// The probability of each viseme; the sum is 1.
   std::array<float, visemes> step(std::span<const float, SoundFeatures::count> features);
 
   static constexpr std::size_t stacked = 3, units = 64;

@@ -110,7 +110,7 @@ using Soup = std::vector<std::array<std::array<float, 3>, 3>>;
 
 std::array<float, 3> key_of(const glm::vec3& p) { return {p.x, p.y, p.z}; }
 
-/// Splits each triangle that has all corners with a share, as somebody who draws the mesh would.
+/// Splits each triangle that has all corners with a share: the same mesh, but with the vertex in the file.
 void draw_vertex(Soup& soup, const std::vector<std::array<float, 3>>& around, const std::array<float, 3>& vertex) {
   Soup drawn;
   for (const auto& triangle : soup) {
