@@ -65,6 +65,8 @@ export async function listenTo(source: AudioNode, files: ListenFiles, onHeard: O
 
 /** A microphone whose speech moves a mouth. */
 export class Microphone {
+  private endListening: () => void = () => undefined;
+
   private constructor(
     private readonly stream: MediaStream,
     private readonly context: AudioContext,
@@ -87,7 +89,7 @@ export class Microphone {
     const microphone = new Microphone(stream, context);
     try {
       await context.resume();
-      await listenTo(context.createMediaStreamSource(stream), files, onHeard);
+      microphone.endListening = await listenTo(context.createMediaStreamSource(stream), files, onHeard);
     } catch (error) {
       microphone.close();
       throw new MicrophoneError('not-loaded', `the listener was not loaded: ${error instanceof Error ? error.message : String(error)}`);
@@ -96,8 +98,9 @@ export class Microphone {
     return microphone;
   }
 
-  /** Gives the microphone back. */
+  /** Gives the microphone back. What was heard and not yet told is told no more. */
   close(): void {
+    this.endListening();
     for (const track of this.stream.getTracks()) track.stop();
     if (this.context.state !== 'closed') void this.context.close();
   }
