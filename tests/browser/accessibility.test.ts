@@ -48,7 +48,7 @@ const looks: Look[] = [
 ];
 
 async function open({ options }: Look, at: string, allowed?: RegExp): Promise<StudioPage> {
-  const context = await browser.newContext({ reducedMotion: 'reduce', ...options });
+  const context = await browser.newContext({ reducedMotion: 'reduce', deviceScaleFactor: 0.5, ...options });
   return StudioPage.openIn(context, server.url + at, allowed ? { allowed } : {});
 }
 

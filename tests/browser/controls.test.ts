@@ -13,7 +13,7 @@ const unfold = ({ page }: StudioPage): Promise<void> =>
 
 describe('controls', () => {
   test('Touch_At390Pixels_EveryControlIs44PixelsWideAndTall', async () => {
-    const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, phone);
+    const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { ...phone, coarse: true });
     const { page } = studio;
     await studio.waitForStage('ready');
     for (const box of ['influence-view', 'units-view']) await page.locator(`#${box}`).check();
@@ -60,7 +60,7 @@ describe('controls', () => {
   });
 
   test('Keyboard_EachTab_HasFewStopsAndEachOfThemIsSeen', async () => {
-    const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { width: 1280, height: 800 });
+    const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { width: 1280, height: 800, coarse: true });
     const { page } = studio;
     await studio.waitForStage('ready');
     // Of the whole page: head and shelf are 8 of them.

@@ -6,6 +6,10 @@ import { browser, server, useStudio } from './support/suite.ts';
 
 useStudio();
 
+/** Pixels of the canvas for each of the page, along a side. */
+const pixels = (page: Page): Promise<number> =>
+  page.locator('canvas.canvas').evaluate((canvas) => (canvas as HTMLCanvasElement).width / canvas.clientWidth);
+
 /** The figures over the picture by their names. */
 const figures = (page: Page): Promise<Record<string, string>> =>
   page.locator('.live-overlay dl > div').evaluateAll((rows) =>
@@ -32,9 +36,11 @@ describe('the figures over the picture', () => {
       return (points ?? '').split(' ').length > 5;
     });
     await studio.keep('live-overlay-wide');
+    expect(await pixels(page)).toBeLessThan(0.7); // the picture moves, and there is no graphics card
     // Another source drives the face: the figures would not be about the picture.
     await page.getByRole('button', { name: 'Pause the stream' }).click();
     await overlay.waitFor({ state: 'hidden' });
+    await eventually('a still picture has all pixels', async () => (await pixels(page)) > 0.99);
     await page.getByRole('button', { name: 'Back to live' }).click();
     await overlay.waitFor();
     await page.getByText('Figures on the picture').click();

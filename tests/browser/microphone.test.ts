@@ -61,7 +61,7 @@ afterAll(async () => {
 });
 
 async function open(): Promise<StudioPage> {
-  const page = await StudioPage.open(browser, server.url);
+  const page = await StudioPage.open(browser, server.url, { coarse: true });
   await page.waitForStage('ready');
   await page.page.getByRole('tab', { name: 'Animate' }).click();
   return page;

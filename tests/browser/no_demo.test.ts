@@ -5,7 +5,7 @@ import { browser, server, useStudio } from './support/suite.ts';
 useStudio({ demo: false });
 
 test('Studio_ServerWithoutADemo_WaitsForNoStream', async () => {
-  const studio = await StudioPage.open(browser, server.url);
+  const studio = await StudioPage.open(browser, server.url, { coarse: true });
   await studio.waitForStage('ready');
   const chip = studio.page.locator('.driver');
   await chip.getByText('By hand').waitFor();

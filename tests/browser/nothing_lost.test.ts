@@ -22,7 +22,7 @@ async function mark(studio: StudioPage, ids: readonly string[]): Promise<void> {
 
 describe('nothing is lost', () => {
   test('Draft_ReloadAndAnotherHead_IsBackUntilItIsDiscarded', async () => {
-    const studio = await StudioPage.open(browser, server.url, { width: 1280, height: 720 });
+    const studio = await StudioPage.open(browser, server.url, { width: 1280, height: 720, coarse: true });
     const { page } = studio;
     await studio.waitForStage('ready');
     await studio.drop(sampleHead, 'draft.glb');
@@ -62,7 +62,7 @@ describe('nothing is lost', () => {
   });
 
   test('Address_HeadTabPointAndStream_AreNamedAndComeBack', async () => {
-    const studio = await StudioPage.open(browser, server.url, { width: 1280, height: 720 });
+    const studio = await StudioPage.open(browser, server.url, { width: 1280, height: 720, coarse: true });
     const { page } = studio;
     await studio.waitForStage('ready');
     const hash = (): Promise<string> => page.evaluate(() => location.hash);
@@ -90,7 +90,7 @@ describe('nothing is lost', () => {
     const stream = (await (
       await fetch(`${server.url}/v1/streams`, { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify({ title: 'mine' }) })
     ).json()) as { id: string };
-    const other = await StudioPage.open(browser, `${server.url}/#sample/live?stream=${stream.id}`, { width: 1280, height: 720 });
+    const other = await StudioPage.open(browser, `${server.url}/#sample/live?stream=${stream.id}`, { width: 1280, height: 720, coarse: true });
     await other.waitForStage('ready');
     await other.page.locator('#tab-live[aria-selected=true]').waitFor();
     await other.page.waitForFunction((id) => (window as unknown as Inside).semblante.live.following.value === id, stream.id);
@@ -100,7 +100,7 @@ describe('nothing is lost', () => {
     await studio.close();
     await other.close();
 
-    const lost = await StudioPage.open(browser, `${server.url}/#nobody/points?point=9.9&stream=x`, { width: 1280, height: 720 });
+    const lost = await StudioPage.open(browser, `${server.url}/#nobody/points?point=9.9&stream=x`, { width: 1280, height: 720, coarse: true });
     await lost.page.getByText('The head of this address is not on the server.').waitFor();
     await lost.waitForStage('ready');
     expect(lost.errors).toEqual([]);

@@ -33,7 +33,7 @@ async function stored(studio: StudioPage): Promise<Points['points']> {
 }
 
 async function openNew(name: string): Promise<StudioPage> {
-  const studio = await StudioPage.open(browser, server.url);
+  const studio = await StudioPage.open(browser, server.url, { coarse: true });
   await studio.waitForStage('ready');
   await studio.drop(sampleHead, name);
   await studio.waitForState('ready');

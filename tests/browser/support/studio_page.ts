@@ -152,7 +152,7 @@ export class StudioPage {
     return last;
   }
 
-  /** Waits until the stage differs from an earlier picture by more than a threshold in a region; see difference(). */
+  /** Waits until the stage differs from an earlier picture by more than a threshold in a region, in squares of 8 pixels; see difference(). */
   async pictureUnlike(
     before: Buffer,
     region: readonly [number, number, number, number],
@@ -165,7 +165,7 @@ export class StudioPage {
         // Whoever waits for a page with an error would wait until the end.
         if (this.errors.length > 0) throw new Error(`the page reports: ${this.errors.join('; ')}`);
         picture = await this.picture();
-        difference = await this.difference(before, picture, region);
+        difference = await this.difference(before, picture, region, 8);
         return difference > least;
       });
     } catch (error) {
@@ -197,11 +197,12 @@ export class StudioPage {
   }
 
   /**
-   * Mean difference of two pictures, 0..255, within a region (x, y, width, height as fractions of the picture).
+   * Mean difference of two pictures, 0..255, within a region (x, y, width, height as fractions of the picture), of the mean
+   * colours of squares of `square` pixels. A picture that moves may have fewer pixels than a still one; squares of 8 do not see that.
    */
-  async difference(a: Buffer, b: Buffer, region: readonly [number, number, number, number]): Promise<number> {
+  async difference(a: Buffer, b: Buffer, region: readonly [number, number, number, number], square = 1): Promise<number> {
     return this.page.evaluate(
-      async ({ first, second, region: [x, y, w, h] }) => {
+      async ({ first, second, region: [x, y, w, h], square }) => {
         const pixels = async (base64: string): Promise<ImageData> => {
           const image = await createImageBitmap(
             new Blob([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))], { type: 'image/png' }),
@@ -214,12 +215,16 @@ export class StudioPage {
         const [one, two] = [await pixels(first), await pixels(second)];
         if (one.width !== two.width || one.height !== two.height)
           throw new Error(`pictures of ${one.width} by ${one.height} and ${two.width} by ${two.height} pixels`);
-        let sum = 0;
-        for (let i = 0; i < one.data.length; i += 4)
-          for (let k = 0; k < 3; k += 1) sum += Math.abs(one.data[i + k]! - two.data[i + k]!);
-        return sum / ((one.data.length / 4) * 3);
+        const across = Math.ceil(one.width / square);
+        const sums = new Float64Array(across * Math.ceil(one.height / square) * 3);
+        for (let i = 0; i < one.data.length; i += 4) {
+          const pixel = i / 4;
+          const at = 3 * (Math.floor(Math.floor(pixel / one.width) / square) * across + Math.floor((pixel % one.width) / square));
+          for (let k = 0; k < 3; k += 1) sums[at + k]! += one.data[i + k]! - two.data[i + k]!;
+        }
+        return sums.reduce((sum, value) => sum + Math.abs(value), 0) / ((one.data.length / 4) * 3);
       },
-      { first: a.toString('base64'), second: b.toString('base64'), region },
+      { first: a.toString('base64'), second: b.toString('base64'), region, square },
     );
   }
 

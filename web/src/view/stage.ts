@@ -16,9 +16,10 @@ import {
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { RoomEnvironment } from 'three/addons/environments/RoomEnvironment.js';
 import { fieldOfView, studioLight } from '@client/gpu/studio_look.ts';
+import { fewerPixels, Pace } from '@client/view/pace.ts';
 import { Flight } from './flight.ts';
 import type { Box } from './head_box.ts';
-import { PaceWatch, type Quality } from './quality.ts';
+import type { Quality } from './quality.ts';
 
 export type ViewName = 'front' | 'left' | 'right' | 'three-quarter';
 
@@ -31,6 +32,9 @@ const directions: Record<ViewName, [number, number, number]> = {
 
 /** Height of the tools and messages at the top and the bottom of the stage, pixels. */
 const toolRoom = 124;
+
+/** Seconds without motion after which the picture gets all its pixels. */
+const stillAfter = 0.25;
 
 /** Cosine of the angle up to which two views are from the same side. */
 const sameSide = Math.cos(0.6);
@@ -47,7 +51,8 @@ function radiusOf(box: Box3): number {
 export type FrameHook = (deltaSeconds: number) => boolean;
 
 /**
- * The canvas with camera, lights and frame loop. Draws only when something changed.
+ * The canvas with camera, lights and frame loop. Draws only when something changed. On a device that cannot draw all pixels in
+ * time a moving picture has fewer; a still one has them all.
  */
 export class Stage {
   readonly scene = new Scene();
@@ -72,8 +77,13 @@ export class Stage {
   private lastTime = 0;
   private secondStart = 0;
   private framesInSecond = 0;
-  private pixelRatioLimit: number;
-  private readonly pace = new PaceWatch();
+  private movingPixelRatio: number;
+  /** Without a third: what is left is the number of vertices, which the user chooses. */
+  private readonly pace = new Pace(['fewer-pixels', 'fewer-pixels']);
+  /** Seconds since the camera or the face moved. */
+  private rest = stillAfter;
+  /** While a video is made. */
+  private heldPixelRatio: number | null = null;
   private readonly key = new DirectionalLight(studioLight.key.color, studioLight.key.intensity);
   private readonly rim = new DirectionalLight(studioLight.rim.color, studioLight.rim.intensity);
 
@@ -81,7 +91,7 @@ export class Stage {
     readonly canvas: HTMLCanvasElement,
     private readonly quality: Quality,
   ) {
-    this.pixelRatioLimit = quality.maxPixelRatio;
+    this.movingPixelRatio = quality.movingPixelRatio;
     this.renderer = new WebGLRenderer({
       canvas,
       antialias: quality.antialias,
@@ -111,7 +121,7 @@ export class Stage {
     this.controls.enableDamping = true;
     this.controls.dampingFactor = 0.12;
     this.controls.zoomToCursor = true;
-    this.controls.addEventListener('change', () => this.invalidate());
+    this.controls.addEventListener('change', () => this.moved());
     this.controls.addEventListener('start', () => this.flight.stop());
 
     this.resized.observe(canvas.parentElement ?? canvas);
@@ -129,12 +139,24 @@ export class Stage {
     return this.radius;
   }
 
+  /** Keeps the number of pixels of a moving picture, or no longer: a video has one size. */
+  holdSize(holds: boolean): void {
+    this.heldPixelRatio = null;
+    if (holds) {
+      this.rest = 0;
+      this.heldPixelRatio = this.pixelRatio;
+    }
+    this.fitPixels();
+  }
+
   onFrame(hook: FrameHook): void {
     this.hooks.push(hook);
   }
 
   /** The present picture as PNG, without the page's background. The canvas keeps what was drawn only within one task. */
   picture(): Promise<Blob | null> {
+    this.rest = stillAfter;
+    this.fitPixels();
     this.renderer.render(this.scene, this.camera);
     return new Promise((resolve) => this.canvas.toBlob(resolve, 'image/png'));
   }
@@ -368,32 +390,47 @@ export class Stage {
     const holder = this.canvas.parentElement ?? this.canvas;
     const width = Math.max(1, holder.clientWidth);
     const height = Math.max(1, holder.clientHeight);
-    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, this.pixelRatioLimit));
+    this.renderer.setPixelRatio(this.pixelRatio);
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
     this.invalidate();
   }
 
+  private moved(): void {
+    this.rest = 0;
+    this.invalidate();
+  }
+
+  private get pixelRatio(): number {
+    if (this.heldPixelRatio !== null) return this.heldPixelRatio;
+    const { maxPixelRatio } = this.quality;
+    return Math.min(window.devicePixelRatio, this.rest < stillAfter ? this.movingPixelRatio : maxPixelRatio);
+  }
+
+  /** Gives the canvas as many pixels as a picture has that moves, or is still. */
+  private fitPixels(): void {
+    if (this.renderer.getPixelRatio() !== this.pixelRatio) this.resize();
+  }
+
   private readonly frame = (time: number): void => {
     if (this.ended) return;
     requestAnimationFrame(this.frame); // first: an exception below must not end the loop
-    const delta = Math.min(0.1, (time - this.lastTime) / 1000);
+    const passed = (time - this.lastTime) / 1000;
+    const delta = Math.min(0.1, passed);
     this.lastTime = time;
+    this.rest += passed;
     if (this.flight.flying) {
       this.flight.step(this.camera, this.controls.target, delta);
-      this.dirty = true;
+      this.moved();
     }
     this.controls.update();
     let moves = false;
     for (const hook of this.hooks) moves = hook(delta) || moves;
-    if (moves) {
-      this.dirty = true;
-      if (this.pace.tick(delta) && this.renderer.getPixelRatio() > 1) {
-        this.pixelRatioLimit = Math.max(1, this.renderer.getPixelRatio() * 0.75);
-        this.resize();
-      }
-    }
+    if (moves) this.moved();
+    if (this.rest === 0 && this.pace.tick(passed, 0, false, false))
+      this.movingPixelRatio = fewerPixels(this.renderer.getPixelRatio());
+    this.fitPixels();
     if (this.dirty) {
       this.dirty = false;
       this.renderer.render(this.scene, this.camera);

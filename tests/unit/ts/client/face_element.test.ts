@@ -1,6 +1,7 @@
 import { expect, test } from 'vitest';
 import type { RigDocument, Vec3 } from '../../../../protocol/ts/index.ts';
-import { budgetOf, cheaperSteps, fewerPixels, firstVertices, Pace, type Device } from '../../../../clients/js/element/detail.ts';
+import { budgetOf, cheaperSteps, firstVertices, type Device } from '../../../../clients/js/element/detail.ts';
+import { fewerPixels, Pace } from '../../../../clients/js/view/pace.ts';
 import { OrbitCamera } from '../../../../clients/js/view/camera.ts';
 import { frameOf } from '../../../../clients/js/view/framing.ts';
 

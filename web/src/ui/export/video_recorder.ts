@@ -33,6 +33,7 @@ export class VideoRecorder {
     const sound = this.soundOfPage();
     this.isRunning = true;
     this.stage.setBackdrop(getComputedStyle(document.documentElement).getPropertyValue('--stage-inner').trim());
+    this.stage.holdSize(true);
     let played = false;
     const watch = setInterval(() => {
       if (plays()) played = true;
@@ -48,6 +49,7 @@ export class VideoRecorder {
       clearInterval(watch);
       this.recorder = null;
       this.isRunning = false;
+      this.stage.holdSize(false);
       this.stage.setBackdrop(null);
     }
   }
