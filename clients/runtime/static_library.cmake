@@ -6,11 +6,15 @@ list(JOIN names "\n" text)
 set(names_file ${CMAKE_CURRENT_BINARY_DIR}/exported_names.txt)
 file(CONFIGURE OUTPUT ${names_file} CONTENT "${text}\n")
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${exports})
-list(TRANSFORM names PREPEND --undefined= OUTPUT_VARIABLE roots)
+list(TRANSFORM names PREPEND -Wl,--undefined= OUTPUT_VARIABLE roots)
 
 set(one_object ${CMAKE_CURRENT_BINARY_DIR}/libsemblante.o)
+set(join -r -nostdlib -Wl,--force-group-allocation -Wl,--gc-sections)
+if(lto_link)
+  list(APPEND join ${lto_link} -fPIC -flinker-output=nolto-rel)
+endif()
 add_custom_command(OUTPUT ${one_object}
-  COMMAND ${CMAKE_LINKER} -r --force-group-allocation --gc-sections ${roots} ${objects} -o ${one_object}
+  COMMAND ${CMAKE_CXX_COMPILER} ${join} ${roots} ${objects} -o ${one_object}
   COMMAND ${CMAKE_OBJCOPY} --keep-global-symbols=${names_file} ${one_object}
   DEPENDS ${objects} ${names_file}
   COMMAND_EXPAND_LISTS VERBATIM COMMENT "Joining the objects of libsemblante.a")
