@@ -10,8 +10,8 @@ const draco = here('node_modules/three/examples/jsm/libs/draco/gltf/');
 
 /** Files that are fetched at run time under a fixed name: the client library in its parts, and the Draco decoder. */
 const assets: Record<string, string> = {
-  'semblante.wasm': `${library}/semblante.wasm`,
   'semblante_view.wasm': `${library}/semblante_view.wasm`,
+  'semblante_motion.wasm': `${library}/semblante_motion.wasm`,
   'semblante_listen.wasm': `${library}/semblante_listen.wasm`,
   'draco/draco_wasm_wrapper.js': draco + 'draco_wasm_wrapper.js',
   'draco/draco_decoder.wasm': draco + 'draco_decoder.wasm',

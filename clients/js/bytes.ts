@@ -1,6 +1,6 @@
 import type { StreamErrorCode } from '../../protocol/ts/generated/messages.ts';
 import { ProtocolError } from '../../protocol/ts/protocol_error.ts';
-import type { Refusal, Runtime } from './runtime.ts';
+import type { Memory, Refusal, Runtime } from './runtime.ts';
 
 /** semblante_result, by number from 1. */
 const codes: readonly StreamErrorCode[] = ['invalid_argument', 'malformed', 'unsupported', 'mismatch', 'too_large'];
@@ -13,7 +13,7 @@ export const refusedBytes: Refusal = (result, where, message) =>
 
 /** Calls `use` with the address of a copy of the bytes, which is freed afterwards. */
 export function withBytes<Result>(
-  runtime: Runtime,
+  runtime: Runtime<Memory>,
   given: string | Uint8Array,
   use: (at: number, size: number) => Result,
 ): Result {

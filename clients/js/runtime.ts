@@ -1,13 +1,16 @@
 import { FaceError } from './face_error.ts';
 import { errorLayout } from './layouts.ts';
 
-/** The functions of libsemblante (clients/runtime/semblante.h) that every page calls. Pointers and handles are numbers. */
-export interface Functions {
+/** What every file of libsemblante has. Pointers and handles are numbers. */
+export interface Memory {
   memory: WebAssembly.Memory;
   malloc(bytes: number): number;
   free(at: number): void;
   _initialize(): void;
+}
 
+/** The functions of libsemblante (clients/runtime/semblante.h) that every page calls. */
+export interface Functions extends Memory {
   semblante_stream_create(options: number, stream: number, error: number): number;
   semblante_stream_destroy(stream: number): void;
   semblante_stream_start(stream: number, now: number): void;
@@ -58,8 +61,8 @@ const refusedOptions: Refusal = (_, where, message) => new RangeError(`${where}:
 const largestText = 4096;
 const decoder = new TextDecoder();
 
-/** libsemblante in WebAssembly: an instance with its memory. One holds all faces, streams and players of a page. */
-export class Runtime<Of extends Functions = Functions> {
+/** A file of libsemblante in WebAssembly: an instance with its memory. One holds all faces, streams and players of a page. */
+export class Runtime<Of extends Memory = Functions> {
   readonly functions: Of;
   private seen: ArrayBufferLike | null = null;
   private wholeBytes = new Uint8Array();
@@ -95,7 +98,7 @@ export class Runtime<Of extends Functions = Functions> {
   }
 
   /** An instance of its own, of a file that has the functions `Of`. */
-  static async open<Of extends Functions>(source: ModuleSource): Promise<Runtime<Of>> {
+  static async open<Of extends Memory = Functions>(source: ModuleSource): Promise<Runtime<Of>> {
     const given = await source;
     if ('ok' in given && !given.ok) throw new FaceError('http', `${given.url}: status ${given.status}`, given.status);
     const bytes = 'arrayBuffer' in given ? await given.arrayBuffer() : given;

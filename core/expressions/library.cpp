@@ -25,7 +25,9 @@ Library build(const std::array<generated::Set, N>& source) {
     const std::size_t first = library.displacements.size();
     for (std::size_t i = set.first; i < set.first + set.count; ++i) {
       const generated::Entry& entry = generated::displacements[i];
-      library.displacements.push_back({FeaturePointId(entry.point), {entry.x, entry.y, entry.z}});
+      library.displacements.push_back(
+          {FeaturePointId(entry.point),
+           {static_cast<float>(entry.x), static_cast<float>(entry.y), static_cast<float>(entry.z)}});
     }
     // Reserved above, so the array does not move and the spans stay valid.
     library.sets.push_back({set.name, std::span<const Displacement>(library.displacements).subspan(first),

@@ -1,7 +1,7 @@
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { describe, expect, test } from 'vitest';
-import { loadWhole, readTake } from '@client/motion/index.ts';
+import { loadMotion, readTake } from '@client/motion/index.ts';
 import { buildDir } from './support/paths.ts';
 import { eventually, patience } from './support/patience.ts';
 import { StudioPage } from './support/studio_page.ts';
@@ -53,7 +53,7 @@ describe('recordings', () => {
       item.getByRole('button', { name: '.fap', exact: true }).click(),
     ]);
     expect(download.suggestedFilename()).toBe(`${recordings[0]!.name}.fap`);
-    const library = await loadWhole(() => readFileSync(join(buildDir, 'wasm/semblante.wasm')));
+    const library = await loadMotion(() => readFileSync(join(buildDir, 'wasm/semblante_motion.wasm')));
     const take = readTake(library, 'fap', readFileSync(await download.path()));
     expect(take.frames.length).toBeGreaterThan(0);
     const [clip] = await Promise.all([

@@ -31,7 +31,7 @@ class Installation(unittest.TestCase):
             status, headers, page = support.get(server.url + "/")
             self.assertEqual((status, page), (200, STUDIO.read_bytes()))
             self.assertEqual(support.get(server.url + "/v1/models/sample")[0], 200)
-            for name in ("/semblante.wasm", "/semblante_view.wasm"):
+            for name in ("/semblante_view.wasm", "/semblante_motion.wasm"):
                 self.assertEqual(support.get(server.url + name)[0], 200)
         told = run(program, "doctor", "--data", self.folder / "data", "--port", "0")
         self.assertEqual(told.returncode, 0, told.stdout)

@@ -1,7 +1,7 @@
-import { Runtime, type Functions, type ModuleSource } from '../runtime.ts';
+import { Runtime, type Memory, type ModuleSource } from '../runtime.ts';
 
-/** The functions of the whole library that the smaller file for pages does not have. */
-export interface MotionFunctions extends Functions {
+/** The functions of libsemblante for takes, performances and bridges. */
+export interface MotionFunctions extends Memory {
   semblante_frame_from_arkit(coefficients: number, frame: number, error: number): number;
   semblante_arkit_from_frame(frame: number, coefficients: number): number;
   semblante_frame_from_oculus(weights: number, frame: number, error: number): number;
@@ -32,13 +32,13 @@ export interface MotionFunctions extends Functions {
   ): number;
 }
 
-/** All of libsemblante (`semblante.wasm`). */
+/** The part of libsemblante that has them: `semblante_motion.wasm`. */
 export type Library = Runtime<MotionFunctions>;
 
 let loading: Promise<Library> | null = null;
 
-/** The page's instance of the whole library, made once; after a failure the next call tries again. */
-export function loadWhole(source: () => ModuleSource): Promise<Library> {
+/** The page's instance of it, made once; after a failure the next call tries again. */
+export function loadMotion(source: () => ModuleSource): Promise<Library> {
   loading ??= Runtime.open<MotionFunctions>(source()).catch((error: unknown) => {
     loading = null;
     throw error;

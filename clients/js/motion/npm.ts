@@ -1,10 +1,10 @@
-/** What the npm package exports as `semblante/motion`: takes, performances and bridges, with the file of the whole library. */
+/** What the npm package exports as `semblante/motion`: takes, performances and bridges, with their file of the library. */
 import { bytesOf } from '../wasm.ts';
-import { loadWhole, type Library } from './library.ts';
+import { loadMotion, type Library } from './library.ts';
 
 export * from './index.ts';
 
-/** The whole library, fetched and made once; after a failure the next call tries again. */
+/** Their part of the library, fetched and made once; after a failure the next call tries again. */
 export function loadLibrary(): Promise<Library> {
-  return loadWhole(() => bytesOf(new URL('./semblante.wasm', import.meta.url)));
+  return loadMotion(() => bytesOf(new URL('./semblante_motion.wasm', import.meta.url)));
 }

@@ -89,7 +89,7 @@ std::string render_cpp(const ArkitData& data) {
   out << "// Generated from core/bridges/data/arkit.json by semblante-codegen-bridges; change the data, not this.\n"
       << "// clang-format off\n#pragma once\n\n#include <array>\n#include <cstddef>\n#include <cstdint>\n"
       << "#include <string_view>\n\nnamespace semblante::generated {\n\n"
-      << "struct ArkitEntry {\n  std::uint8_t fap;\n  double value;  ///< FAP units at coefficient 1\n};\n\n"
+      << "struct ArkitEntry {\n  std::uint8_t fap;\n  std::int16_t value;  ///< FAP units at coefficient 1\n};\n\n"
       << "/// arkit_entries[first] .. arkit_entries[first + count - 1]; cost in square millimetres\n"
       << "struct ArkitShape {\n  std::string_view name;\n  std::uint8_t mirror;\n  std::size_t first, count;\n"
       << "  double cost;\n};\n\n";

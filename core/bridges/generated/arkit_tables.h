@@ -11,7 +11,7 @@ namespace semblante::generated {
 
 struct ArkitEntry {
   std::uint8_t fap;
-  double value;  ///< FAP units at coefficient 1
+  std::int16_t value;  ///< FAP units at coefficient 1
 };
 
 /// arkit_entries[first] .. arkit_entries[first + count - 1]; cost in square millimetres

@@ -142,7 +142,7 @@ std::string render_header(const Sets& sets) {
   out << "// Generated from core/expressions/data by semblante-codegen-expressions; change the data, not this.\n"
       << "// clang-format off\n#pragma once\n\n#include <array>\n#include <cstddef>\n#include <cstdint>\n"
       << "#include <string_view>\n\nnamespace semblante::generated {\n\n"
-      << "struct Entry {\n  std::uint8_t point;  ///< dense index\n  float x, y, z;      ///< FAPU units\n};\n\n"
+      << "struct Entry {\n  std::uint8_t point;  ///< dense index\n  std::int16_t x, y, z;  ///< FAPU units\n};\n\n"
       << "/// displacements[first] .. displacements[first + count - 1]\n"
       << "struct Set {\n  std::string_view name;\n  std::size_t first, count;\n  bool meets_upper_teeth;\n  double "
          "jaw_open;  ///< amount of the action\n};\n\n"

@@ -11,7 +11,7 @@ namespace semblante::generated {
 
 struct Entry {
   std::uint8_t point;  ///< dense index
-  float x, y, z;      ///< FAPU units
+  std::int16_t x, y, z;  ///< FAPU units
 };
 
 /// displacements[first] .. displacements[first + count - 1]

@@ -1,12 +1,12 @@
 import { Runtime } from '@client/index.ts';
-import { loadWhole, type Library } from '@client/motion/index.ts';
+import { loadMotion, type Library } from '@client/motion/index.ts';
 
 /** The part of the client library that shows faces and follows streams, made once; after a failure the next call retries. */
 export function loadRuntime(): Promise<Runtime> {
   return Runtime.load(() => fetch('./semblante_view.wasm'));
 }
 
-/** All of the client library, for files and performances that are played on this page. Loaded when the first is. */
+/** Its part for files and performances that are played on this page. Loaded when the first is. */
 export function loadLibrary(): Promise<Library> {
-  return loadWhole(() => fetch('./semblante.wasm'));
+  return loadMotion(() => fetch('./semblante_motion.wasm'));
 }

@@ -6,7 +6,7 @@ import { fileURLToPath } from 'node:url';
 import { gzipSync } from 'node:zlib';
 import { describe, expect, it } from 'vitest';
 import * as layouts from '../../../../clients/js/layouts.ts';
-import { listenPath, viewPath, wholePath } from '../support/runtime.ts';
+import { listenPath, motionPath, viewPath, wholePath } from '../support/runtime.ts';
 
 const root = fileURLToPath(new URL('../../../..', import.meta.url));
 
@@ -28,9 +28,10 @@ const structs: Record<string, Record<string, number>> = {
 
 describe('libsemblante in WebAssembly', () => {
   it.each([
-    ['semblante_view.wasm: streams, players and the kernel', viewPath, 92_000, 38_700],
-    ['semblante.wasm: everything but listeners', wholePath, 244_000, 107_500],
-    ['semblante_listen.wasm: listeners', listenPath, 60_000, 52_000],
+    ['semblante_view.wasm: streams, players and the kernel', viewPath, 91_500, 38_600],
+    ['semblante_motion.wasm: takes, performances and bridges', motionPath, 119_000, 55_500],
+    ['semblante_listen.wasm: listeners', listenPath, 57_500, 49_800],
+    ['semblante.wasm: everything but listeners', wholePath, 236_000, 105_000],
   ])('%s has no imports and is as small as this', async (_, path, bytes, gzipped) => {
     const file = readFileSync(path);
     const module = await WebAssembly.compile(file);

@@ -2,12 +2,13 @@ import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { Runtime } from '../../../../clients/js/index.ts';
-import { loadWhole, type Library } from '../../../../clients/js/motion/index.ts';
+import { loadMotion, type Library } from '../../../../clients/js/motion/index.ts';
 
 const folder = process.env['SEMBLANTE_WASM'] ?? fileURLToPath(new URL('../../../../build/wasm', import.meta.url));
 
 /** The C++ build makes them: target semblante-runtime-wasm. */
 export const viewPath = join(folder, 'semblante_view.wasm');
+export const motionPath = join(folder, 'semblante_motion.wasm');
 export const wholePath = join(folder, 'semblante.wasm');
 export const listenPath = join(folder, 'semblante_listen.wasm');
 
@@ -16,7 +17,7 @@ export function loadRuntime(): Promise<Runtime> {
   return Runtime.load(() => readFileSync(viewPath));
 }
 
-/** The whole library of this test file. */
+/** Its part for takes, performances and bridges. */
 export function loadLibrary(): Promise<Library> {
-  return loadWhole(() => readFileSync(wholePath));
+  return loadMotion(() => readFileSync(motionPath));
 }
