@@ -1,13 +1,17 @@
-import { readFileSync } from 'node:fs';
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import type { Page } from 'playwright-core';
-import { describe, expect, test } from 'vitest';
+import type { Locator, Page } from 'playwright-core';
+import { afterAll, describe, expect, test } from 'vitest';
 import { root } from './support/paths.ts';
 import { eventually } from './support/patience.ts';
-import { StudioPage } from './support/studio_page.ts';
+import { phone, StudioPage } from './support/studio_page.ts';
 import { browser, server, useStudio } from './support/suite.ts';
 
+const scratch = mkdtempSync(join(tmpdir(), 'semblante-timeline-'));
+
 useStudio();
+afterAll(() => rmSync(scratch, { recursive: true, force: true }));
 
 interface Cue {
   time: number;
@@ -122,6 +126,61 @@ describe('the timeline', () => {
       const { position, playing } = await player('look');
       return playing && position > 0 && position < 3000;
     });
+    expect(studio.errors).toEqual([]);
+    await studio.close();
+  });
+
+  test('Example_ByFinger_At390Pixels_CuesAreDraggedStretchedAndLongPressed', async () => {
+    const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { ...phone, coarse: true });
+    const { page } = studio;
+    await studio.waitForStage('ready');
+    const file = join(scratch, 'finger.json');
+    const cues = [{ time: 500, duration: 500, viseme: 10 }, { time: 2000, duration: 500, expression: 'joy' }];
+    writeFileSync(file, JSON.stringify({ format: 'semblante.performance', version: 1, duration: 8000, cues }));
+    await studio.drop(file);
+    const [first, second] = [timeline(page).locator('.cue-viseme'), timeline(page).locator('.cue-expression')];
+    await first.waitFor();
+    await first.scrollIntoViewIfNeeded();
+    const session = await page.context().newCDPSession(page);
+    const finger = async (on: Locator, by: number, rest = 0): Promise<void> => {
+      const box = (await on.boundingBox())!;
+      const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+      const touch = (type: 'touchStart' | 'touchMove' | 'touchEnd', to: number | null): Promise<unknown> =>
+        session.send('Input.dispatchTouchEvent', { type, touchPoints: to === null ? [] : [{ x: to, y }] });
+      await touch('touchStart', x);
+      await page.waitForTimeout(rest);
+      for (let i = 1; i <= 8; i += 1) await touch('touchMove', x + (by * i) / 8);
+      await touch('touchEnd', null);
+    };
+    const times = async (): Promise<[number, number][]> => (await saved(page)).cues.map(({ time, duration }) => [time, duration]);
+
+    // A finger that only passes scrolls the tracks.
+    const scrolled = (): Promise<number> => timeline(page).locator('.timeline-scroll').evaluate((one) => one.scrollLeft);
+    await finger(second, -60);
+    await eventually('the tracks are scrolled', async () => (await scrolled()) > 20);
+    expect(await times()).toEqual([[500, 500], [2000, 500]]);
+    await finger(timeline(page).locator('.track').last(), 200);
+    await eventually('the tracks are scrolled back', async () => (await scrolled()) === 0);
+
+    // The chosen cue goes with the finger, 80 pixels a second, and has grips for it.
+    await first.tap();
+    expect(await first.getAttribute('aria-pressed')).toBe('true');
+    const grips = timeline(page).locator('.cue-grip');
+    await finger(first, 80);
+    expect(await times()).toEqual([[1500, 500], [2000, 500]]);
+    for (const grip of await grips.all()) expect((await grip.boundingBox())!.width).toBe(44);
+    await studio.keep('timeline-finger');
+    await finger(grips.last(), 40);
+    expect(await times()).toEqual([[1500, 1000], [2000, 500]]);
+    await finger(grips.first(), -40);
+    expect(await times()).toEqual([[1000, 1500], [2000, 500]]);
+
+    // A long press takes another one.
+    await finger(second, -80, 600);
+    expect(await times()).toEqual([[1000, 1500], [1000, 500]]);
+    expect(await second.getAttribute('aria-pressed')).toBe('true');
+    await timeline(page).getByRole('button', { name: 'Undo' }).tap();
+    expect(await times()).toEqual([[1000, 1500], [2000, 500]]);
     expect(studio.errors).toEqual([]);
     await studio.close();
   });

@@ -1,9 +1,10 @@
 import { expressions, faps, visemes } from '@protocol/generated/mpeg4.ts';
-import { endOf, numberOfViseme, shortestCue, targetOf, type Cue, type CueTarget } from '../../face/cue_sheet.ts';
+import { endOf, numberOfViseme, targetOf, type Cue, type CueTarget } from '../../face/cue_sheet.ts';
 import { h, replace } from '../shared/dom.ts';
 import { formatTime } from '../shared/format.ts';
 import { icon, type IconName } from '../shared/icons.ts';
 import { capital, fapTitle } from '../shared/names.ts';
+import { dragCue, type CuePart } from './cue_drag.ts';
 import { TimelineModel } from './timeline_model.ts';
 import { nameOf, t } from '../../words/words.ts';
 
@@ -12,6 +13,8 @@ const mostCues = 3000;
 const scales = [20, 40, 80, 160, 320];
 /** Width of a cue's edge that lengthens it, pixels. */
 const edge = 8;
+/** Width of a grip beside the chosen cue, pixels, as in timeline.css. */
+const gripWidth = 44;
 const newCueLength = 400;
 
 export interface TimelineOptions {
@@ -37,6 +40,7 @@ export class Timeline {
   private readonly nearer = this.button('plus', t('Zoom in'), () => this.zoom(1));
   private readonly farther = this.button('minus', t('Zoom out'), () => this.zoom(-1));
   private scale = 2;
+  private grips: HTMLElement[] = [];
   private buttons = new Map<number, HTMLButtonElement>();
 
   constructor(private readonly options: TimelineOptions) {
@@ -185,8 +189,12 @@ export class Timeline {
       cueName(cue),
     );
     this.span(button, cue.time, endOf(cue));
-    this.makeDraggable(button, cue, index);
     this.buttons.set(index, button);
+    this.makeDraggable(button, index, (event) => {
+      const { left, right, width } = button.getBoundingClientRect();
+      if (event.pointerType === 'touch' || width < 3 * edge) return 'all';
+      return event.clientX - left < edge ? 'start' : right - event.clientX < edge ? 'end' : 'all';
+    });
     return button;
   }
 
@@ -195,38 +203,49 @@ export class Timeline {
     button.style.width = `${Math.max(6, this.x(end - start) - 1)}px`;
   }
 
-  private makeDraggable(button: HTMLButtonElement, cue: Cue, index: number): void {
+  /** `partAt`: the part of the cue that a pointer takes at `element`. */
+  private makeDraggable(element: HTMLElement, index: number, partAt: (event: PointerEvent) => CuePart): void {
     const { model } = this.options;
-    let drag: { x: number; part: 'start' | 'end' | 'all' } | null = null;
-    const at = (event: PointerEvent): [number, number] => {
-      const by = drag ? ((event.clientX - drag.x) / this.pixelsPerSecond) * 1000 : 0;
-      const [from, to] = [cue.time, endOf(cue)];
-      if (drag?.part === 'start') return [Math.min(Math.max(0, from + by), to - shortestCue), to];
-      if (drag?.part === 'end') return [from, Math.max(from + shortestCue, to + by)];
-      const start = Math.max(0, from + by);
-      return [start, start + to - from];
-    };
-    button.addEventListener('pointerdown', (event) => {
-      if (event.button !== 0) return;
-      model.choose(index);
-      button.focus({ preventScroll: true });
-      button.setPointerCapture(event.pointerId);
-      const { left, right, width } = button.getBoundingClientRect();
-      const part = width < 3 * edge ? 'all' : event.clientX - left < edge ? 'start' : right - event.clientX < edge ? 'end' : 'all';
-      drag = { x: event.clientX, part };
+    const cue = model.cues[index]!;
+    const button = (): HTMLButtonElement => this.buttons.get(index)!;
+    dragCue(element, {
+      cue,
+      pixelsPerSecond: () => this.pixelsPerSecond,
+      partAt,
+      isChosen: () => model.chosen.value === index,
+      choose: () => {
+        model.choose(index);
+        button().focus({ preventScroll: true });
+      },
+      show: (start, end) => {
+        this.span(button(), start, end);
+        this.showTimes(start, end);
+      },
+      place: (start, end) => model.place(start, end),
     });
-    button.addEventListener('pointermove', (event) => drag && this.span(button, ...at(event)));
-    button.addEventListener('pointercancel', () => {
-      drag = null;
-      this.span(button, cue.time, endOf(cue));
+  }
+
+  /** A finger lengthens the chosen cue at grips beside it, since the edges of a cue are narrower than a finger. */
+  private makeGrips(index: number): void {
+    for (const grip of this.grips) grip.remove();
+    const button = this.buttons.get(index);
+    if (!button) return;
+    this.grips = (['start', 'end'] as const).map((part) => {
+      const grip = h('span', { class: `cue-grip cue-grip-${part}`, 'aria-hidden': 'true' });
+      this.makeDraggable(grip, index, () => part);
+      return grip;
     });
-    button.addEventListener('pointerup', (event) => {
-      if (!drag) return;
-      const moved = Math.abs(event.clientX - drag.x) > 2;
-      const place = at(event);
-      drag = null;
-      if (moved) model.place(...place);
-    });
+    button.after(...this.grips);
+  }
+
+  private showTimes(start: number, end: number): void {
+    this.start.value = (start / 1000).toFixed(2);
+    this.end.value = (end / 1000).toFixed(2);
+    const [before, after] = this.grips;
+    if (!before || !after) return;
+    before.hidden = this.x(start) < gripWidth; // it would be outside of the track
+    before.style.left = `${this.x(start) - gripWidth}px`;
+    after.style.left = `${this.x(end)}px`;
   }
 
   private showChosen(): void {
@@ -239,8 +258,9 @@ export class Timeline {
       button.setAttribute('aria-pressed', String(i === chosen));
     }
     for (const control of [this.start, this.end, this.remove]) control.disabled = !cue;
-    this.start.value = cue ? (cue.time / 1000).toFixed(2) : '';
-    this.end.value = cue ? (endOf(cue) / 1000).toFixed(2) : '';
+    this.makeGrips(chosen);
+    if (cue) this.showTimes(cue.time, endOf(cue));
+    else this.start.value = this.end.value = '';
   }
 
   private add(): void {
