@@ -122,10 +122,11 @@ function main(root: HTMLElement, session: Session | null, theme: HTMLElement): v
   window.addEventListener('pagehide', ({ persisted }) => {
     if (!persisted) speech.leave();
   });
-  animate.element.append(speak.element, clip.element, new LevelsPanel(studio, fit, scene).element);
+  animate.element.prepend(speak.element); // what everybody wants first of a head: that it talks
+  animate.element.append(clip.element, new LevelsPanel(studio, fit, scene).element);
   const shelf = new Shelf(studio);
   const fitPanel = new FitPanel(studio, points, fit, parametrizer);
-  const performance = new PerformancePanel(new PerformanceModel(studio, live), live);
+  const performance = new PerformancePanel(new PerformanceModel(studio, live), live, toasts);
   const recordingsPanel = new RecordingsPanel(recordings, live, studio);
   const overlay = new LiveOverlay(live, driver);
   const livePanel = new LivePanel(studio, live, performance.element, recordingsPanel.element, overlay.on);

@@ -317,7 +317,15 @@ export class Stage {
     this.invalidate();
   }
 
-  zoom(factor: number): void {
+  /** Moves the camera nearer (`factor` below 1) or farther; `place`: of the surface at the middle of the picture, where it then stays outside. */
+  zoom(factor: number, place: readonly [number, number, number] | null = null): void {
+    this.flight.stop();
+    if (place) {
+      // The target moves along the view only, so that the picture does not jump.
+      const arm = this.arm();
+      const depth = this.between.set(...place).sub(this.controls.target).dot(arm) / arm.lengthSq();
+      this.controls.target.addScaledVector(arm, Math.min(depth, 0.9));
+    }
     this.camera.position.sub(this.controls.target).multiplyScalar(factor).add(this.controls.target);
     this.controls.update();
     this.invalidate();

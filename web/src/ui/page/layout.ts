@@ -75,6 +75,14 @@ export function makeLayout(studio: Studio, panels: Panels, stage: readonly HTMLE
     if (!narrow.matches && studio.tab.value === 'heads') studio.tab.set('animate');
     show();
   };
+  // A control that is disabled or hidden loses the focus to the page: the keyboard goes on at the tab that is shown instead.
+  let used: Element | null = null;
+  inspector.addEventListener('focusin', ({ target }) => (used = target as Element));
+  const keepFocus = (): void => {
+    const now = document.activeElement;
+    const gone = used?.closest('[role=tabpanel]');
+    if ((now === document.body || now === used) && gone instanceof HTMLElement && gone.hidden) buttons.get(studio.tab.value)!.focus({ preventScroll: true });
+  };
   const show = (): void => {
     for (const { tab } of tabs) {
       const on = studio.tab.value === tab;
@@ -83,6 +91,7 @@ export function makeLayout(studio: Studio, panels: Panels, stage: readonly HTMLE
       button.tabIndex = on ? 0 : -1;
       panels[tab].hidden = tab === 'heads' ? narrow.matches && !on : !on;
     }
+    keepFocus();
   };
   narrow.addEventListener('change', seat);
   studio.tab.watch(show);
