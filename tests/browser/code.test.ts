@@ -1,20 +1,23 @@
 import { execFileSync } from 'node:child_process';
-import { mkdirSync, mkdtempSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
+import { mkdirSync, mkdtempSync, readFileSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import type { Locator, Page } from 'playwright-core';
 import { afterAll, describe, expect, test } from 'vitest';
 import { buildDir, root } from './support/paths.ts';
 import { eventually } from './support/patience.ts';
-import { StudioPage } from './support/studio_page.ts';
+import { StudioPage, type Inside } from './support/studio_page.ts';
 import { browser, server, useStudio } from './support/suite.ts';
 
 const folder = mkdtempSync(join(tmpdir(), 'semblante-code-'));
 
-useStudio();
+useStudio({ voice: join(buildDir, 'bin/semblante-voice-espeak') });
 afterAll(async () => {
   rmSync(folder, { recursive: true, force: true });
 });
+
+mkdirSync(join(folder, 'include'));
+symlinkSync(join(root, 'clients/runtime'), join(folder, 'include/semblante'));
 
 /** What a program prints; an error with its output when it fails. */
 const run = (program: string, args: string[], env: Record<string, string> = {}): string =>
@@ -40,6 +43,23 @@ async function recordedFace(stream: string, act: () => void): Promise<Frame> {
   await request(`recordings/${String(id)}/stop`, 'POST');
   const { frames } = (await request(`recordings/${String(id)}/frames`)) as { frames: Frame[] };
   return frames.at(-1)!;
+}
+
+/** Records a stream that says something, with its sound. */
+async function recordSpeech(): Promise<void> {
+  const post = async (path: string, body: object): Promise<{ id: string }> => {
+    const response = await fetch(`${server.url}/v1/${path}`, { method: 'POST', body: JSON.stringify(body), headers: { 'Content-Type': 'application/json' } });
+    if (!response.ok) throw new Error(await response.text());
+    return (await response.json()) as { id: string };
+  };
+  const { id: stream } = await post('streams', { title: 'Speaking', model: 'sample' });
+  const { id } = await post(`streams/${stream}/recordings`, {});
+  await post(`streams/${stream}/speech`, { text: 'Hello.', language: 'en' });
+  await eventually('it is recorded', async () => {
+    const { duration } = (await (await fetch(`${server.url}/v1/recordings/${id}`)).json()) as { duration: number };
+    return duration > 300;
+  });
+  await post(`recordings/${id}/stop`, {});
 }
 
 /** Viseme 10 with joy at its strongest and FAP 31 moved, by hand. */
@@ -94,8 +114,6 @@ describe('code to copy', () => {
     await studio.keep('code-c-wide');
     writeFileSync(join(folder, 'pose.py'), python);
     writeFileSync(join(folder, 'pose.c'), c);
-    mkdirSync(join(folder, 'include'));
-    symlinkSync(join(root, 'clients/runtime'), join(folder, 'include/semblante'));
     run('bash', ['-c', /curl .*/.exec(c)![0]]);
     const flags = ['-Wall', '-Wextra', '-Werror', '-Iinclude', `-I${root}`, `-L${library}`, '-lsemblante', `-Wl,-rpath,${library}`];
     run(process.env['CC'] ?? 'cc', ['pose.c', ...flags, '-o', 'pose']);
@@ -110,6 +128,82 @@ describe('code to copy', () => {
       const worst = Math.max(...numbers.map((value, i) => Math.abs(value - shown[i]!)));
       expect(worst / size).toBeLessThan(1e-4);
     }
+    expect(studio.errors).toEqual([]);
+    await studio.close();
+  });
+
+  test('ClipsAndRecordings_EachProgramSavesThem', async () => {
+    const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { width: 1440, height: 900, coarse: true });
+    const { page } = studio;
+    await studio.waitForStage('ready');
+    await makeFace(page);
+    const open = async (topic: string): Promise<Locator> => {
+      await page.getByRole('button', { name: 'Code' }).click();
+      const opened = page.getByRole('dialog', { name: 'This face in code' });
+      await opened.getByLabel('Program for').selectOption(topic);
+      return opened;
+    };
+    // What can do nothing yet says why, and leads to what helps.
+    let dialog = await open('recording');
+    await dialog.getByText('Nothing has been recorded yet.').waitFor();
+    await dialog.getByRole('button', { name: 'Record in the Live tab' }).click();
+    await page.locator('#tab-live[aria-selected="true"]').waitFor();
+    await recordSpeech();
+    await page.locator('#tab-animate').click();
+
+    /** Runs the program of each language but C; the files that they save. */
+    const files = async (file: string): Promise<Buffer[]> => {
+      const made: Buffer[] = [];
+      for (const [language, script, act] of [
+        ['curl', 'motion.sh', () => run('bash', ['motion.sh'])],
+        ['JavaScript', 'motion.mjs', () => run('node', ['motion.mjs'])],
+        ['Python', 'motion.py', () => run('python3', ['motion.py'])],
+      ] as const) {
+        writeFileSync(join(folder, script), await programOf(dialog, language));
+        act();
+        made.push(readFileSync(join(folder, file)));
+        rmSync(join(folder, file));
+      }
+      return made;
+    };
+    dialog = await open('clip');
+    const clips = await files('clip.glb');
+    for (const clip of clips) expect(clip.equals(clips[0]!)).toBe(true);
+    const gltf = JSON.parse(clips[0]!.subarray(20, 20 + clips[0]!.readUInt32LE(12)).toString()) as { animations: object[]; accessors: { max?: number[] }[] };
+    expect(gltf.animations).toHaveLength(1);
+    await studio.keep('code-clip');
+
+    // In C every moment of the clip: the first and the last are at rest, the one in the middle is not.
+    const library = join(buildDir, 'lib');
+    const flags = ['-Wall', '-Wextra', '-Werror', '-Iinclude', `-I${root}`, `-L${library}`, '-lsemblante', `-Wl,-rpath,${library}`];
+    const momentsOf = async (): Promise<string[]> => {
+      const source = await programOf(dialog, 'C');
+      writeFileSync(join(folder, 'motion.c'), source);
+      run('bash', ['-c', /curl .*/.exec(source)![0]]);
+      run(process.env['CC'] ?? 'cc', ['motion.c', ...flags, '-o', 'motion']);
+      const lines = run('./motion', []).trim().split('\n');
+      const count = await page.evaluate(() => (window as unknown as Inside).semblante.scene.face!.mesh.vertexCount);
+      expect(lines.length % count).toBe(0);
+      return Array.from({ length: lines.length / count }, (_, i) => lines.slice(i * count, (i + 1) * count).join());
+    };
+    const moments = await momentsOf();
+    expect(moments).toHaveLength(51);
+    expect(moments[0]).toBe(moments[50]);
+    expect(moments[25]).not.toBe(moments[0]);
+    await page.keyboard.press('Escape');
+
+    dialog = await open('recording');
+    const starts = { performance: '{', fap: '', 'arkit-csv': 'Timecode', glb: 'glTF', opus: 'OggS', 'frames-json': '{' };
+    const endings = { performance: '.json', fap: '.fap', 'arkit-csv': '.csv', glb: '.glb', opus: '.opus', 'frames-json': '.frames.json' };
+    for (const format of ['glb', 'opus', 'performance', 'fap', 'arkit-csv', 'frames-json'] as const) {
+      await dialog.getByLabel('Format').selectOption(format);
+      for (const content of await files(`recording${endings[format]}`)) {
+        expect(content.length, format).toBeGreaterThan(100);
+        expect(content.subarray(0, starts[format].length).toString(), format).toBe(starts[format]);
+      }
+    }
+    expect((await momentsOf()).length).toBeGreaterThan(5);
+    await studio.keep('code-recording');
     expect(studio.errors).toEqual([]);
     await studio.close();
   });

@@ -51,7 +51,14 @@ describe('feature points', () => {
     expect(await foot.getByRole('button', { name: 'Parametrize' }).isDisabled()).toBe(true);
     await foot.getByText('A face needs feature points, and none is placed.').waitFor();
     for (const name of ['Fill the missing side by mirroring', 'Export points to a file'])
-      expect(await page.getByRole('button', { name }).getAttribute('title'), name).toMatch(/: no/);
+      expect(await page.getByRole('button', { name }).getAttribute('title'), name).toMatch(/No point is placed yet/);
+    // A press says it too, and offers what helps.
+    await page.getByRole('button', { name: 'Export points to a file' }).press('Enter');
+    await page.locator('.toast').getByText('No point is placed yet.').waitFor();
+    expect(await page.evaluate(() => document.activeElement?.textContent)).toBe('Place the first');
+    await page.keyboard.press('Enter');
+    await page.getByText(`Point 1 of ${quickSet.length}`).waitFor();
+    await page.keyboard.press('Escape');
     await studio.keep('points-none-yet');
     await foot.getByRole('button', { name: 'Place the first' }).click();
     for (const [i, id] of ['9.3', '9.15', '8.1'].entries()) {

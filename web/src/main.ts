@@ -114,7 +114,7 @@ function main(root: HTMLElement, session: Session | null, theme: HTMLElement): v
       driver.byHand();
     },
   });
-  const clip = new ClipPanel(driver, loadLibrary, saveFile);
+  const clip = new ClipPanel(driver, loadLibrary, saveFile, toasts);
   const speech = new SpeakModel(api, driver, sound, loadLibrary);
   const microphone = new MicrophoneModel(frame, driver, loadLibrary, () => live.touch());
   const speak = new SpeakPanel(speech, microphone, api);

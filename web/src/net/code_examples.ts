@@ -33,7 +33,8 @@ const modelUrl = ({ server, model }: CodeTarget): string => `${server}/v1/models
 /** A FAP value without the noise of its binary form. */
 const short = (value: number): number => Number(value.toPrecision(7));
 
-const faps = (frame: JsonFrame): [number, number][] =>
+/** The FAPs of a frame with their values. */
+export const faps = (frame: JsonFrame): [number, number][] =>
   Object.entries(frame.faps).map(([fap, value]) => [Number(fap), short(value)]);
 
 /** The request's body; no part of it has a quote or backslash for a shell to see. */
@@ -84,10 +85,36 @@ for x, y, z in head.positions().tolist():
 
 function cProgram(frame: JsonFrame, target: CodeTarget): string {
   const { viseme, expression } = frame;
+  return cHeadProgram(target, {
+    body: `  frame.viseme1 = ${viseme.select1};
+  frame.viseme2 = ${viseme.select2};
+  frame.viseme_blend = ${viseme.blend};
+  frame.expression1 = ${expression.select1};
+  frame.intensity1 = ${expression.intensity1};
+  frame.expression2 = ${expression.select2};
+  frame.intensity2 = ${expression.intensity2};
+${faps(frame)
+  .map(([fap, value]) => `  frame.fap[${fap}] = ${value};\n`)
+  .join('')}  semblante_head_set_frame(head, &frame);
+  print_positions(head);
+`,
+  });
+}
+
+interface CParts {
+  /** After the head has been made. */
+  body: string;
+  declarations?: string;
+  /** Further arguments of curl: what the program reads besides the head. */
+  fetched?: readonly string[];
+}
+
+/** A C program that reads a head; its body sets a \`frame\` and prints the vertices. */
+export function cHeadProgram(target: CodeTarget, { body, declarations = '', fetched = [] }: CParts): string {
   const url = modelUrl(target);
   const token = target.asksForTokens ? ' -H "Authorization: Bearer $SEMBLANTE_TOKEN"' : '';
   return `/* Save as pose.c, then:
- *   curl${token} -O '${url}/mesh.drc' -O '${url}/weights' -O '${url}/rig.json'
+ *   curl${token} ${[`-O '${url}/mesh.drc'`, `-O '${url}/weights'`, `-O '${url}/rig.json'`, ...fetched].join(' ')}
  *   cc pose.c $(pkg-config --cflags --libs semblante) -o pose && ./pose */
 #include <stdio.h>
 #include <stdlib.h>
@@ -109,14 +136,20 @@ static void* read_file(const char* name, size_t* size) {
   return bytes;
 }
 
+static void print_positions(const semblante_head* head) {
+  uint32_t i, count = semblante_head_vertex_count(head);
+  float* positions = malloc((size_t)count * 3 * sizeof(float));
+  if (positions == NULL || semblante_head_positions(head, positions, (size_t)count * 3) != SEMBLANTE_OK) exit(1);
+  for (i = 0; i < count; ++i) printf("%g %g %g\\n", positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]);
+  free(positions);
+}
+
 int main(void) {
   semblante_package package = {0};
   semblante_frame frame = {0};
   semblante_error error;
   semblante_head* head = NULL;
-  float* positions;
-  uint32_t i, count;
-  package.size = sizeof(package);
+${declarations}  package.size = sizeof(package);
   package.mesh_drc = read_file("mesh.drc", &package.mesh_drc_size);
   package.weights = read_file("weights", &package.weights_size);
   package.rig_json = read_file("rig.json", &package.rig_json_size);
@@ -125,22 +158,7 @@ int main(void) {
     return 1;
   }
 
-  frame.viseme1 = ${viseme.select1};
-  frame.viseme2 = ${viseme.select2};
-  frame.viseme_blend = ${viseme.blend};
-  frame.expression1 = ${expression.select1};
-  frame.intensity1 = ${expression.intensity1};
-  frame.expression2 = ${expression.select2};
-  frame.intensity2 = ${expression.intensity2};
-${faps(frame)
-  .map(([fap, value]) => `  frame.fap[${fap}] = ${value};\n`)
-  .join('')}  semblante_head_set_frame(head, &frame);
-
-  count = semblante_head_vertex_count(head);
-  positions = malloc((size_t)count * 3 * sizeof(float));
-  if (positions == NULL || semblante_head_positions(head, positions, (size_t)count * 3) != SEMBLANTE_OK) return 1;
-  for (i = 0; i < count; ++i) printf("%g %g %g\\n", positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]);
-  semblante_head_destroy(head);
+${body}  semblante_head_destroy(head);
   return 0;
 }
 `;

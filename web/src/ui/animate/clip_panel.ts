@@ -16,6 +16,7 @@ import { messageOf } from '../shared/message_of.ts';
 import { icon } from '../shared/icons.ts';
 import { capital } from '../shared/names.ts';
 import { Signal } from '../shared/signal.ts';
+import type { Toasts } from '../shared/toast.ts';
 import { Timeline } from './timeline.ts';
 import { TimelineModel } from './timeline_model.ts';
 import { t } from '../../words/words.ts';
@@ -42,6 +43,7 @@ export class ClipPanel {
     private readonly driver: FaceDriver,
     private readonly load: () => Promise<Library>,
     private readonly save: (content: Blob, name: string) => void,
+    toasts: Pick<Toasts, 'say'>,
   ) {
     const player = (this.player = driver.clip);
     const seek = (position: number): void => {
@@ -49,7 +51,7 @@ export class ClipPanel {
       player.seek(position);
       this.showClock();
     };
-    this.timeline = new Timeline({ model: this.cues, position: () => player.position, seek, save: () => this.saveDocument() });
+    this.timeline = new Timeline({ model: this.cues, position: () => player.position, seek, save: () => this.saveDocument(), toasts });
     this.seek.addEventListener('input', () => {
       this.held = true;
       seek(Number(this.seek.value));

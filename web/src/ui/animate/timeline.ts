@@ -3,8 +3,10 @@ import { endOf, numberOfViseme, targetOf, type Cue, type CueTarget } from '../..
 import { h, replace } from '../shared/dom.ts';
 import { formatTime } from '../shared/format.ts';
 import { icon, type IconName } from '../shared/icons.ts';
+import { canIdle, setIdle, type Idle } from '../shared/idle.ts';
 import { capital, fapTitle } from '../shared/names.ts';
 import { dragCue, type CuePart } from './cue_drag.ts';
+import type { Toasts } from '../shared/toast.ts';
 import { TimelineModel } from './timeline_model.ts';
 import { nameOf, t } from '../../words/words.ts';
 
@@ -23,6 +25,7 @@ export interface TimelineOptions {
   position: () => number;
   seek: (position: number) => void;
   save: () => void;
+  toasts: Pick<Toasts, 'say'>;
 }
 
 /** The cues of a performance on tracks: moved, lengthened, added and deleted by pointer and keyboard. */
@@ -55,6 +58,7 @@ export class Timeline {
       const cue = model.cues[model.chosen.value];
       if (cue) model.place(cue.time, Number(this.end.value) * 1000);
     });
+    canIdle(this.remove, options.toasts);
     this.scroll.append(this.tracks);
     this.element.append(
       this.scroll,
@@ -257,10 +261,16 @@ export class Timeline {
       button.tabIndex = i === Math.max(0, chosen) ? 0 : -1;
       button.setAttribute('aria-pressed', String(i === chosen));
     }
-    for (const control of [this.start, this.end, this.remove]) control.disabled = !cue;
+    for (const control of [this.start, this.end]) control.disabled = !cue;
+    setIdle(this.remove, t('Delete the cue'), cue ? null : this.noCue());
     this.makeGrips(chosen);
     if (cue) this.showTimes(cue.time, endOf(cue));
     else this.start.value = this.end.value = '';
+  }
+
+  private noCue(): Idle {
+    if (this.options.model.cues.length === 0) return { why: t('No cues yet: add one below.') };
+    return { why: t('No cue is chosen.'), help: { label: t('Choose the first'), act: () => this.choose(0) } };
   }
 
   private add(): void {

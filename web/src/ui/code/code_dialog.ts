@@ -1,12 +1,16 @@
 import { neutralFrame } from '@client/index.ts';
 import { frameToJson, type JsonFrame } from '@protocol/json_codec.ts';
 import { codeFor, codeLanguages, sendsIntoStream, type CodeLanguage } from '../../net/code_examples.ts';
+import { clipCode, recordingCode } from '../../net/code_motion.ts';
 import { problemOf } from '../../net/problem.ts';
 import { getSession } from '../../net/session.ts';
+import type { Recording, RecordingFormat } from '../../net/types.ts';
 import type { LiveModel } from '../live/live_model.ts';
 import { showDialog } from '../shared/dialog.ts';
 import { h, redraw, replace, setText } from '../shared/dom.ts';
 import { icon } from '../shared/icons.ts';
+import { recordingFormats } from '../shared/recording_formats.ts';
+import { needsFace } from '../shared/needs_face.ts';
 import type { Studio } from '../shared/studio.ts';
 import type { FaceDriver } from '../stage/face_driver.ts';
 import { t } from '../../words/words.ts';
@@ -24,7 +28,8 @@ export function codeButton(studio: Studio, live: LiveModel, driver: FaceDriver):
     icon('code', 16),
     t('Code'),
   );
-  studio.selected.watch((model) => (button.disabled = model?.state !== 'parametrized'));
+  const setFace = needsFace(button, button.title, studio);
+  studio.selected.watch((model) => setFace(model?.state === 'parametrized'));
   return button;
 }
 
@@ -35,13 +40,22 @@ function shownFrame(live: LiveModel, driver: FaceDriver): JsonFrame {
   return frameToJson(live.subscriber.value?.newest ?? neutralFrame());
 }
 
-/** Programs in several languages for one frame, each to be copied whole. */
+/** What a program is about: the face on the stage, a clip in which it comes and goes, or a recording. */
+type Topic = 'face' | 'clip' | 'recording';
+
+/** Programs in several languages, each to be copied whole. */
 class CodeDialog {
   private readonly body = h('div', { class: 'code-body' });
   private readonly note = h('p', { class: 'small', role: 'status' });
   private readonly copyButton = h('button', { type: 'button', on: { click: () => void this.copy() } }, t('Copy'));
   private readonly server: string;
+  private topic: Topic = 'face';
   private language: CodeLanguage = 'curl';
+  /** Newest first; null until the first answer. */
+  private recordings: readonly Recording[] | null = null;
+  private recording = '';
+  private format: RecordingFormat = 'glb';
+  private dialog: HTMLDialogElement | null = null;
   private stream: string;
   private asksForTokens = false;
   private text = '';
@@ -59,11 +73,12 @@ class CodeDialog {
 
   async open(): Promise<void> {
     this.draw();
-    showDialog(
+    this.dialog = showDialog(
       t('This face in code'),
       [this.body, this.note],
       [this.copyButton, h('button', { type: 'submit', class: 'primary' }, t('Close'))],
-    ).classList.add('wide');
+    );
+    this.dialog.classList.add('wide');
     try {
       this.asksForTokens = (await getSession(this.studio.api.base)).asks_for_tokens;
       this.draw();
@@ -77,27 +92,101 @@ class CodeDialog {
   }
 
   private drawBody(): void {
-    const sends = sendsIntoStream(this.language);
-    const ready = !sends || this.stream !== '';
+    const sends = this.topic === 'face' && sendsIntoStream(this.language);
+    const ready = this.topic === 'recording' ? this.recording !== '' : !sends || this.stream !== '';
     this.copyButton.disabled = !ready;
-    this.text = codeFor(this.language, this.frame, {
+    this.text = ready ? this.program() : '';
+    replace(
+      this.body,
+      this.topicSelect(),
+      h('div', { class: 'segments', role: 'group', 'aria-label': t('Programming language') }, codeLanguages.map((name) => this.languageButton(name))),
+      h('p', { class: 'small' }, this.meaning(), this.asksForTokens ? ` ${t('The token is read from SEMBLANTE_TOKEN.')}` : null),
+      sends ? (ready ? this.streamSelect() : this.streamMaker()) : null,
+      this.topic === 'recording' ? this.recordingChoice() : null,
+      ready ? h('pre', { class: 'code', tabindex: 0, 'data-focus': 'code', 'aria-label': t('Program') }, this.text) : null,
+    );
+  }
+
+  private program(): string {
+    const target = {
       server: this.server,
       stream: this.stream,
       model: this.studio.selected.value?.id ?? '',
       asksForTokens: this.asksForTokens,
+    };
+    switch (this.topic) {
+      case 'face':
+        return codeFor(this.language, this.frame, target);
+      case 'clip':
+        return clipCode(this.language, this.frame, target);
+      case 'recording':
+        return recordingCode(this.language, this.recording, this.format, target);
+    }
+  }
+
+  private meaning(): string {
+    switch (this.topic) {
+      case 'face':
+        return sendsIntoStream(this.language) ? t('Sends this face into a stream: all who watch it see it.') : t('Computes the vertices of this head with this face.');
+      case 'clip':
+        return this.language === 'C'
+          ? t('Computes the vertices of two seconds in which this face comes and goes.')
+          : t('Saves two seconds in which this face comes and goes as an animated GLB. The cues can be any performance.');
+      case 'recording':
+        return this.language === 'C' ? t('Computes the vertices of this head with each moment of a recording.') : t('Saves a recording in a format of your choice.');
+    }
+  }
+
+  private topicSelect(): HTMLElement {
+    const names: Record<Topic, string> = { face: t('This face'), clip: t('A clip'), recording: t('A recording') };
+    const options = (Object.keys(names) as Topic[]).map((name) => h('option', { value: name, selected: name === this.topic }, names[name]));
+    return this.select('topic', t('Program for'), options, (value) => {
+      this.topic = value as Topic;
+      if (this.topic === 'recording' && this.recordings === null) void this.loadRecordings();
     });
-    replace(
-      this.body,
-      h('div', { class: 'segments', role: 'group', 'aria-label': t('Programming language') }, codeLanguages.map((name) => this.languageButton(name))),
-      h(
-        'p',
-        { class: 'small' },
-        sends ? t('Sends this face into a stream: all who watch it see it.') : t('Computes the vertices of this head with this face.'),
-        this.asksForTokens ? ` ${t('The token is read from SEMBLANTE_TOKEN.')}` : null,
-      ),
-      sends ? (ready ? this.streamSelect() : this.streamMaker()) : null,
-      ready ? h('pre', { class: 'code', tabindex: 0, 'data-focus': 'code', 'aria-label': t('Program') }, this.text) : null,
-    );
+  }
+
+  private async loadRecordings(): Promise<void> {
+    try {
+      const all = await this.studio.api.listRecordings(null);
+      this.recordings = all.filter(({ state, frames }) => state === 'finished' && frames > 0).reverse();
+      this.recording = this.recordings[0]?.id ?? '';
+      this.draw();
+    } catch (error) {
+      setText(this.note, problemOf(error).title);
+    }
+  }
+
+  private recordingChoice(): HTMLElement | HTMLElement[] | null {
+    if (this.recordings === null) return null;
+    if (this.recordings.length === 0) {
+      const record = (): void => {
+        this.dialog?.close();
+        this.studio.tab.set('live');
+      };
+      return h(
+        'div',
+        { class: 'notice' },
+        h('span', { class: 'grow' }, t('Nothing has been recorded yet.')),
+        h('button', { type: 'button', 'data-focus': 'record', on: { click: record } }, t('Record in the Live tab')),
+      );
+    }
+    const names = this.recordings.map(({ id, name }) => h('option', { value: id, selected: id === this.recording }, name));
+    const formats = recordingFormats.map(([format, name]) => h('option', { value: format, selected: format === this.format }, name));
+    return [
+      this.select('recording', t('Recording'), names, (value) => (this.recording = value)),
+      ...(this.language === 'C' ? [] : [this.select('format', t('Format'), formats, (value) => (this.format = value as RecordingFormat))]),
+    ];
+  }
+
+  private select(name: string, label: string, options: HTMLElement[], choose: (value: string) => void): HTMLElement {
+    const select = h('select', { id: `code-${name}`, 'data-focus': name }, options);
+    select.addEventListener('change', () => {
+      choose(select.value);
+      setText(this.note, '');
+      this.draw();
+    });
+    return h('label', { class: 'field-row', for: `code-${name}` }, h('span', {}, label), select);
   }
 
   private languageButton(name: CodeLanguage): HTMLElement {
@@ -114,16 +203,8 @@ class CodeDialog {
   }
 
   private streamSelect(): HTMLElement {
-    const select = h(
-      'select',
-      { id: 'code-stream', 'data-focus': 'stream' },
-      this.live.ownStreams.map(({ id, title }) => h('option', { value: id, selected: id === this.stream }, title || id)),
-    );
-    select.addEventListener('change', () => {
-      this.stream = select.value;
-      this.draw();
-    });
-    return h('label', { class: 'field-row', for: 'code-stream' }, h('span', {}, t('Stream')), select);
+    const options = this.live.ownStreams.map(({ id, title }) => h('option', { value: id, selected: id === this.stream }, title || id));
+    return this.select('stream', t('Stream'), options, (value) => (this.stream = value));
   }
 
   private streamMaker(): HTMLElement {

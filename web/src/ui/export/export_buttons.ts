@@ -3,6 +3,7 @@ import { PerformanceClip } from '../../face/performance_clip.ts';
 import { framesOfClip, writtenRate, type Motion } from '../../face/motion_frames.ts';
 import { h, setText } from '../shared/dom.ts';
 import { icon, type IconName } from '../shared/icons.ts';
+import { needsFace } from '../shared/needs_face.ts';
 import type { Studio } from '../shared/studio.ts';
 import type { FaceDriver } from '../stage/face_driver.ts';
 import type { SceneView } from '../stage/scene.ts';
@@ -56,9 +57,8 @@ export function exportButtons(parts: ExportParts): HTMLElement[] {
   );
   const video = videoButton(parts, (content) => save(content, nameOfFile('.webm')));
   const buttons = [picture, video, clip, performance, fap, face];
-  scene.faceShown.watch((face) => {
-    for (const one of buttons) one.disabled = !face;
-  });
+  const withFace = buttons.map((one) => needsFace(one, one.title, studio));
+  scene.faceShown.watch((face) => withFace.forEach((set) => set(face)));
   return buttons;
 }
 

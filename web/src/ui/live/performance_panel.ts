@@ -8,6 +8,8 @@ import { fapWarnings } from '../documents/fap_warnings.ts';
 import { chooseFile } from '../shared/file_button.ts';
 import { formatTime } from '../shared/format.ts';
 import { icon } from '../shared/icons.ts';
+import { canIdle, setIdle } from '../shared/idle.ts';
+import type { Toasts } from '../shared/toast.ts';
 import type { LiveModel } from './live_model.ts';
 import { capital } from '../shared/names.ts';
 import type { PerformanceModel, Refusal } from './performance_model.ts';
@@ -39,13 +41,15 @@ export class PerformancePanel {
     step: 1,
     'aria-label': t('Position'),
   });
+  private readonly example: HTMLSelectElement;
   private held = false;
 
   constructor(
     private readonly model: PerformanceModel,
     live: LiveModel,
+    private readonly toasts: Pick<Toasts, 'say'>,
   ) {
-    const example = exampleSelect((title, text) => this.model.choose({ kind: 'performance', title, text }));
+    this.example = exampleSelect((title, text) => this.model.choose({ kind: 'performance', title, text }));
     this.target.addEventListener('change', () => this.model.target.set(this.target.value));
     this.from.addEventListener('change', () => {
       this.model.from = Math.max(0, Math.round((Number(this.from.value) || 0) * 1000));
@@ -73,7 +77,7 @@ export class PerformancePanel {
           accept: '.json,.fap,application/json',
           take: (file) => void this.takeFile(file),
         }),
-        example,
+        this.example,
       ),
       this.script,
       h('label', { class: 'field-row' }, h('span', {}, t('Into')), this.target),
@@ -164,18 +168,7 @@ export class PerformancePanel {
       h(
         'div',
         { class: 'row' },
-        h(
-          'button',
-          {
-            type: 'button',
-            class: playing ? '' : 'primary',
-            'data-focus': 'play',
-            disabled: !model.script.value || model.busy.value,
-            on: { click: () => void model.play() },
-          },
-          icon(restart ? 'reset' : 'play', 15),
-          restart ? t('Play again') : t('Play'),
-        ),
+        this.playButton(playing !== null, restart),
         playing
           ? h(
               'button',
@@ -188,6 +181,26 @@ export class PerformancePanel {
     );
     this.progress.disabled = !model.mine;
     if (playing) this.showClock(model.position);
+  }
+
+  private playButton(playing: boolean, restart: boolean): HTMLElement {
+    const { model } = this;
+    const button = h(
+      'button',
+      {
+        type: 'button',
+        class: playing ? '' : 'primary',
+        'data-focus': 'play',
+        disabled: model.busy.value,
+        on: { click: () => void model.play() },
+      },
+      icon(restart ? 'reset' : 'play', 15),
+      restart ? t('Play again') : t('Play'),
+    );
+    canIdle(button, this.toasts);
+    const help = { label: t('Choose an example'), act: () => this.example.focus() };
+    setIdle(button, t('Play'), model.script.value ? null : { why: t('There is nothing to play yet: choose an example or a file.'), help });
+    return button;
   }
 
   private drawTrouble(refusal: Refusal | null): void {

@@ -3,6 +3,7 @@ import { ask } from '../shared/dialog.ts';
 import { h, replace, setText } from '../shared/dom.ts';
 import { Guide } from './guide.ts';
 import { icon, type IconName } from '../shared/icons.ts';
+import { canIdle, setIdle, type Idle } from '../shared/idle.ts';
 import { ParametrizeBox } from './parametrize_box.ts';
 import type { Parametrizer } from './parametrizer.ts';
 import type { HiddenParts } from './hidden_parts.ts';
@@ -42,6 +43,7 @@ export class PointsPanel {
     hidden: HiddenParts,
   ) {
     document.addEventListener('keydown', (event) => this.key(event));
+    for (const button of [this.mirror, this.download]) canIdle(button, studio.toasts);
     this.guide = new Guide({ onSelect: (id) => points.toggle(id) });
     const list = new PointList(points);
     const file = h('input', {
@@ -157,10 +159,10 @@ export class PointsPanel {
     this.undo.disabled = !draft.canUndo;
     this.redo.disabled = !draft.canRedo;
     const lacks = [...draft.points.keys()].some((id) => !draft.points.has(partnerOf(id) ?? id));
-    this.mirror.disabled = busy || !usable || !lacks;
-    this.mirror.title = lacks ? t('Fill the missing side by mirroring') : t('Fill the missing side by mirroring: no point lacks its other side');
-    this.download.disabled = size === 0;
-    this.download.title = size > 0 ? t('Export points to a file') : t('Export points to a file: none is placed');
+    this.mirror.disabled = busy || !usable;
+    const none: Idle | null = size > 0 ? null : { why: t('No point is placed yet.'), help: { label: t('Place the first'), act: () => this.points.chooseNext() } };
+    setIdle(this.mirror, t('Fill the missing side by mirroring'), none ?? (lacks ? null : { why: t('Every point has its other side already.') }));
+    setIdle(this.download, t('Export points to a file'), none);
   }
 
   private refusal(wrong: readonly string[]): HTMLElement {

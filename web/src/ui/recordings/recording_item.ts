@@ -2,16 +2,8 @@ import type { Recording, RecordingFormat } from '../../net/types.ts';
 import { h, setText } from '../shared/dom.ts';
 import { formatBytes, formatCount, formatTime } from '../shared/format.ts';
 import { icon } from '../shared/icons.ts';
+import { recordingFormats } from '../shared/recording_formats.ts';
 import { language, t } from '../../words/words.ts';
-
-const formats: readonly [RecordingFormat, string, string][] = [
-  ['performance', t('Performance'), t('A performance document, JSON')],
-  ['fap', '.fap', t('A .fap file, in whole FAP units')],
-  ['arkit-csv', t('ARKit CSV'), t('A take in the format of Live Link Face')],
-  ['glb', t('GLB clip'), t('The open head with its skin and one animation')],
-  ['opus', t('Sound'), t('The sound, Ogg/Opus, on the clock of the GLB clip')],
-  ['frames-json', t('Frames'), t('Every frame, JSON')],
-];
 
 /** Why a recording ended, when no client stopped it. */
 const endingWords: Record<string, string> = {
@@ -32,6 +24,8 @@ export interface RecordingActs {
   download: (format: RecordingFormat) => void;
   look: (at: number) => void;
   toggle: () => void;
+  /** Makes a button one that needs a parametrized head. */
+  needsFace: (button: HTMLButtonElement) => void;
 }
 
 export interface RecordingSight {
@@ -39,8 +33,6 @@ export interface RecordingSight {
   busy: boolean;
   /** The displayed moment of this recording, ms; null when the face does not show this recording. */
   at: number | null;
-  /** Whether a GLB clip can be made for the displayed head. */
-  clip: boolean;
   /** Title of the stream, in a list of several streams; else null. */
   stream: string | null;
 }
@@ -131,25 +123,27 @@ function details(recording: Recording, sight: RecordingSight, acts: RecordingAct
   return h(
     'div',
     { class: 'recording-more' },
-    empty ? null : h('div', { class: 'row' }, seek, clock),
+    empty ? h('p', { class: 'muted small' }, t('There is nothing in it.')) : h('div', { class: 'row' }, seek, clock),
     h(
       'div',
       { class: 'row wrap', role: 'group', 'aria-label': t('Download {name} as', { name }) },
-      formats.map(([format, title, meaning]) =>
-        h(
-          'button',
-          {
-            type: 'button',
-            class: 'small',
-            'data-focus': `${format}-${id}`,
-            title: format === 'glb' && !sight.clip ? t('Open a head that is parametrized') : meaning,
-            disabled: empty || sight.busy || (format === 'glb' && !sight.clip),
-            on: { click: () => acts.download(format) },
-          },
-          icon('download', 14),
-          title,
-        ),
-      ),
+      recordingFormats.map(([format, title, meaning]) => {
+          const button = h(
+            'button',
+            {
+              type: 'button',
+              class: 'small',
+              'data-focus': `${format}-${id}`,
+              title: meaning,
+              disabled: empty || sight.busy,
+              on: { click: () => acts.download(format) },
+            },
+            icon('download', 14),
+            title,
+          );
+          if (format === 'glb') acts.needsFace(button);
+          return button;
+      }),
     ),
     h(
       'button',

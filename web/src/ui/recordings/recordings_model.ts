@@ -1,4 +1,5 @@
 import { problemOf } from '../../net/problem.ts';
+import { recordingEndings } from '../../net/recording_endings.ts';
 import type { Problem, Recording, RecordingFormat } from '../../net/types.ts';
 import type { FaceDriver } from '../stage/face_driver.ts';
 import { formatTime } from '../shared/format.ts';
@@ -13,15 +14,6 @@ export interface ShownMoment {
   /** ms after the first frame. */
   at: number;
 }
-
-const endings: Record<RecordingFormat, string> = {
-  performance: '.json',
-  fap: '.fap',
-  'arkit-csv': '.csv',
-  glb: '.glb',
-  opus: '.opus',
-  'frames-json': '.frames.json',
-};
 
 /** Recordings: start and stop, play, show single moments, download. */
 export class RecordingsModel {
@@ -130,7 +122,7 @@ export class RecordingsModel {
     const model = this.studio.selected.value?.id ?? null;
     await this.work(recording.id, t('{name} was not downloaded', { name: recording.name }), async () => {
       const content = await this.studio.api.recordingContent(recording.id, format, model);
-      this.save(content, `${fileName(recording.name)}${endings[format]}`);
+      this.save(content, `${fileName(recording.name)}${recordingEndings[format]}`);
     });
   }
 

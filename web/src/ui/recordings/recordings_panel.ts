@@ -7,6 +7,7 @@ import type { LiveModel } from '../live/live_model.ts';
 import { capital } from '../shared/names.ts';
 import { recordingItem } from './recording_item.ts';
 import type { RecordingsModel } from './recordings_model.ts';
+import { needsFace } from '../shared/needs_face.ts';
 import { progressBar } from '../shared/progress_bar.ts';
 import type { Studio } from '../shared/studio.ts';
 import { language, t } from '../../words/words.ts';
@@ -157,7 +158,23 @@ export class RecordingsPanel {
             t('Record'),
           ),
       running.length === 0 && this.model.stream.value === ''
-        ? h('p', { class: 'muted small' }, t('Choose one stream to record it.'))
+        ? this.streamAdvice()
+        : null,
+    );
+  }
+
+  private streamAdvice(): HTMLElement {
+    const [first] = this.live.streams.value ?? [];
+    return h(
+      'p',
+      { class: 'row small' },
+      h('span', { class: 'grow muted' }, t('Choose one stream to record it.')),
+      first
+        ? h(
+            'button',
+            { type: 'button', class: 'small', 'data-focus': 'first', on: { click: () => this.model.stream.set(first.id) } },
+            first.title || first.id,
+          )
         : null,
     );
   }
@@ -189,7 +206,6 @@ export class RecordingsPanel {
             open: this.open === recording.id,
             busy: model.busy.value !== null,
             at: look?.id === recording.id ? look.at : null,
-            clip,
             stream: model.stream.value === '' ? this.live.titleOf(recording.stream) : null,
           },
           {
@@ -197,6 +213,7 @@ export class RecordingsPanel {
             remove: () => void this.remove(recording),
             download: (format) => void model.download(recording, format),
             look: (at) => void model.lookAt(recording, at),
+            needsFace: (button) => needsFace(button, button.title, this.studio)(clip),
             toggle: () => {
               this.open = this.open === recording.id ? null : recording.id;
               this.draw();

@@ -13,15 +13,17 @@ export interface ToastAction {
 export class Toasts {
   readonly element = h('div', { class: 'toasts', role: 'region', 'aria-label': t('Messages'), 'aria-live': 'polite' });
 
-  /** `action`: what a button beside the text does; there is more time for it. */
-  say(text: string, action?: ToastAction): void {
+  /** `action`: what a button beside the text does; there is more time for it. `focus`: the button gets the focus. */
+  say(text: string, action?: ToastAction, focus = false): void {
     const toast = this.show('note', icon('check'), h('p', {}, text));
     if (action) {
       const click = (): void => {
         toast.remove();
         action.act();
       };
-      toast.append(h('button', { type: 'button', class: 'small', on: { click } }, action.label));
+      const button = h('button', { type: 'button', class: 'small', on: { click } }, action.label);
+      toast.append(button);
+      if (focus) button.focus();
     }
     setTimeout(() => toast.remove(), action ? 10_000 : 4000);
   }
