@@ -58,7 +58,6 @@ describe('feature points', () => {
     expect(await page.evaluate(() => document.activeElement?.textContent)).toBe('Place the first');
     await page.keyboard.press('Enter');
     await page.getByText(`Point 1 of ${quickSet.length}`).waitFor();
-    await page.keyboard.press('Escape');
     await studio.keep('points-none-yet');
     await foot.getByRole('button', { name: 'Place the first' }).click();
     for (const [i, id] of ['9.3', '9.15', '8.1'].entries()) {

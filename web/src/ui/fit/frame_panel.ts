@@ -170,7 +170,7 @@ function choice(
 }
 
 function origin(byUser: boolean, sure: boolean): HTMLElement {
-  const words = byUser ? t('yours') : sure ? t('guessed, sure') : t('guessed, not sure');
+  const words = byUser ? t('yours') : sure ? t('guessed, certain') : t('guessed, uncertain');
   return h('span', { class: `tag ${byUser ? 'by-hand' : sure ? '' : 'unsure'}` }, words);
 }
 

@@ -102,7 +102,7 @@ export class ParametrizeBox {
                 on: {
                   click: () => {
                     this.studio.tab.set('points');
-                    this.points.chooseNext();
+                    this.points.chooseFirst();
                   },
                 },
               },

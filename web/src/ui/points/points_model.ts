@@ -149,6 +149,12 @@ export class PointsModel {
     return quickSet.filter(({ id }) => !this.draft.points.has(id)).length;
   }
 
+  /** The first point to place, also when a later one is chosen. */
+  chooseFirst(): void {
+    this.chosen.set(null);
+    this.chooseNext();
+  }
+
   /** Whether `chooseNext` has a point: an unplaced one, or a proposed one to review. */
   get hasNext(): boolean {
     if (this.guided.value) return this.quickLeft > 0;

@@ -160,7 +160,7 @@ export class PointsPanel {
     this.redo.disabled = !draft.canRedo;
     const lacks = [...draft.points.keys()].some((id) => !draft.points.has(partnerOf(id) ?? id));
     this.mirror.disabled = busy || !usable;
-    const none: Idle | null = size > 0 ? null : { why: t('No point is placed yet.'), help: { label: t('Place the first'), act: () => this.points.chooseNext() } };
+    const none: Idle | null = size > 0 ? null : { why: t('No point is placed yet.'), help: { label: t('Place the first'), act: () => this.points.chooseFirst() } };
     setIdle(this.mirror, t('Fill the missing side by mirroring'), none ?? (lacks ? null : { why: t('Every point has its other side already.') }));
     setIdle(this.download, t('Export points to a file'), none);
   }

@@ -36,7 +36,7 @@ export class RecordingsPanel {
       'section',
       { class: 'recordings' },
       h('header', { class: 'section-head' }, h('h2', {}, t('Recordings'))),
-      h('label', { class: 'field-row' }, h('span', {}, t('Of')), this.source),
+      h('label', { class: 'field-row' }, h('span', {}, t('Stream')), this.source),
       this.recorder,
       this.list,
       h('label', { class: 'field-row' }, h('span', {}, t('Play into')), this.target),
