@@ -84,7 +84,7 @@ describe('code to copy', () => {
     await studio.waitForStage('ready');
     await makeFace(page);
     await page.getByRole('button', { name: 'Code' }).click();
-    const dialog = page.getByRole('dialog', { name: 'This face in code' });
+    const dialog = page.getByRole('dialog', { name: 'Programs to copy' });
     await dialog.getByText('There is no stream to send into yet.').waitFor();
     await dialog.getByRole('button', { name: 'Create a new stream' }).click();
     await dialog.getByLabel('Stream').waitFor();
@@ -139,7 +139,7 @@ describe('code to copy', () => {
     await makeFace(page);
     const open = async (topic: string): Promise<Locator> => {
       await page.getByRole('button', { name: 'Code' }).click();
-      const opened = page.getByRole('dialog', { name: 'This face in code' });
+      const opened = page.getByRole('dialog', { name: 'Programs to copy' });
       await opened.getByLabel('Program for').selectOption(topic);
       return opened;
     };
@@ -215,7 +215,7 @@ describe('code to copy', () => {
     await studio.waitForStage('ready');
     await page.getByRole('button', { name: 'Code' }).focus();
     await page.keyboard.press('Enter');
-    const dialog = page.getByRole('dialog', { name: 'This face in code' });
+    const dialog = page.getByRole('dialog', { name: 'Programs to copy' });
     await dialog.getByRole('button', { name: 'Python' }).focus();
     await page.keyboard.press('Space');
     await dialog.getByText('Computes the vertices of this head').waitFor();

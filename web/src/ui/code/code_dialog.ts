@@ -74,7 +74,7 @@ class CodeDialog {
   async open(): Promise<void> {
     this.draw();
     this.dialog = showDialog(
-      t('This face in code'),
+      t('Programs to copy'),
       [this.body, this.note],
       [this.copyButton, h('button', { type: 'submit', class: 'primary' }, t('Close'))],
     );

@@ -36,7 +36,7 @@ export async function askForStream(): Promise<{ title: string; options: NewStrea
     title,
     h('label', { for: 'stream-batch' }, t('Batch interval, ms')),
     batch,
-    h('p', { class: 'small', id: 'stream-batch-note' }, t('0 sends each frame at once; longer saves bytes, adds latency.')),
+    h('p', { class: 'small', id: 'stream-batch-note' }, t('0 sends each frame at once; a longer interval saves bytes but adds delay.')),
     h('label', { for: 'stream-share' }, t('Viseme share, %')),
     share,
     h('p', { class: 'small', id: 'stream-share-note' }, t('Its weight where an expression moves the same point.')),

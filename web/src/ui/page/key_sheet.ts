@@ -27,7 +27,7 @@ const sheet = (): { place: string; keys: [HTMLElement[], string][] }[] => [
       [kbd('Delete'), t('Remove the chosen point')],
       [kbd('H'), t('Hide the part under the mouse, or at the cross')],
       [kbd('Shift', 'H'), t('Show all parts')],
-      [kbd('Esc'), t('Choose no point')],
+      [kbd('Esc'), t('Deselect the point')],
       [kbd('Ctrl', 'Z'), t('Undo')],
       [kbd('Ctrl', 'Shift', 'Z'), t('Redo')],
     ],
@@ -35,9 +35,9 @@ const sheet = (): { place: string; keys: [HTMLElement[], string][] }[] => [
   {
     place: t('Timeline'),
     keys: [
-      [kbd('↑', '↓'), t('The cue before, the next cue')],
+      [kbd('↑', '↓'), t('The previous or the next cue')],
       [kbd('←', '→'), t('Move the cue')],
-      [kbd('Shift', '←'), t('Shorten or lengthen the cue')],
+      [kbd('Shift', '←', '→'), t('Shorten or lengthen the cue')],
       [kbd('Delete'), t('Delete the cue')],
       [kbd('Ctrl', 'Z'), t('Undo')],
       [kbd('Ctrl', 'Shift', 'Z'), t('Redo')],
@@ -46,7 +46,7 @@ const sheet = (): { place: string; keys: [HTMLElement[], string][] }[] => [
   {
     place: t('Everywhere'),
     keys: [
-      [kbd('←', '→'), t('Another tab, when a tab has the focus')],
+      [kbd('←', '→'), t('Switch tabs, when a tab has the focus')],
       [kbd('?'), t('This sheet')],
     ],
   },
@@ -80,5 +80,5 @@ function open(): void {
       ),
     ]),
     h('button', { type: 'submit', class: 'primary' }, t('Close')),
-  );
+  ).scrollTop = 0; // the button at its end has the focus
 }
