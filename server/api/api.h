@@ -13,6 +13,7 @@
 #include "server/api/export_slots.h"
 #include "server/api/key_locks.h"
 #include "server/api/security.h"
+#include "server/api/speakers.h"
 #include "server/http/application.h"
 #include "server/jobs/job_queue.h"
 #include "server/metrics/request_counts.h"
@@ -70,6 +71,7 @@ struct Context {
   std::shared_ptr<KeyLocks> quota_turns = nullptr;             ///< by token; made by Api
   std::shared_ptr<ExportSlots> exports = nullptr;              ///< made by Api, unless it is given
   std::shared_ptr<ExportSlots> voices = nullptr;               ///< made by Api
+  std::shared_ptr<Speakers> speakers = nullptr;                ///< made by Api
 };
 
 /// REST and stream operations: finds the route, checks what can be checked before the body, and calls the handler. The

@@ -23,8 +23,9 @@ http::Response get_performance(Context& context, http::Request& request) {
   const auto info = context.hub.info(request.params.at("stream"));
   if (!info) refuse("not-found", "there is no stream " + request.params.at("stream"));
   const auto& id = request.params.at("performance");
-  if (!info->playing || info->playing->id != id) refuse("not-found", "the stream does not play the performance " + id);
-  return json_response(200, represent(*info->playing));
+  for (const auto* play : {&info->playing, &info->failed})
+    if (*play && (*play)->id == id) return json_response(200, represent(**play));
+  refuse("not-found", "the stream does not play the performance " + id);
 }
 
 http::Response stop_performance(Context& context, http::Request& request) {

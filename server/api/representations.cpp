@@ -180,7 +180,8 @@ answer::Stream represent(const streams::StreamInfo& stream) {
           .lateness_p99 = lateness_p99(stream.counts.lateness),
           .clamped_values = stream.clamped_values,
           .viseme_share = settings.viseme_share,
-          .playing = stream.playing ? std::optional(represent(*stream.playing)) : std::nullopt};
+          .playing = stream.playing ? std::optional(represent(*stream.playing)) : std::nullopt,
+          .failed = stream.failed ? std::optional(represent(*stream.failed)) : std::nullopt};
 }
 
 answer::Playing represent(const streams::PlayStatus& playing) {
@@ -190,7 +191,9 @@ answer::Playing represent(const streams::PlayStatus& playing) {
           .duration = playing.duration > 0.0 ? std::optional(playing.duration) : std::nullopt,
           .position = std::round(playing.position),
           .fps = playing.rate,
-          .loop = playing.loop};
+          .loop = playing.loop,
+          .complete = playing.making.complete,
+          .failure = playing.making.failure.empty() ? std::nullopt : std::optional(playing.making.failure)};
 }
 
 answer::Expression represent(const store::SetRecord& set) {

@@ -21,6 +21,7 @@
 #include "server/api/common.h"
 #include "server/api/generated/body_members.h"
 #include "server/api/generated/handlers.h"
+#include "server/api/live_speech.h"
 #include "server/api/mapped_file.h"
 #include "server/api/play_options.h"
 #include "server/api/quota.h"
@@ -28,8 +29,6 @@
 #include "server/api/stored_file.h"
 #include "server/http/media_type.h"
 #include "server/http/multipart.h"
-#include "server/streams/performance_source.h"
-#include "server/voice/sound_packets.h"
 #include "server/voice/speech_maker.h"
 
 namespace semblante::api {
@@ -106,13 +105,13 @@ auto take_voice_slot(Context& context) {
   return slot;
 }
 
-voice::Speech make(Context& context, const voice::SpeechRequest& request) {
-  const auto slot = take_voice_slot(context);
-  auto speech = voice::make_speech(context.config.voice, request);
-  if (!speech && speech.error().code == ErrorCode::unsupported)
-    refuse("invalid-field", speech.error().message, "/" + speech.error().where);
-  if (!speech) refuse("voice-failed", "the voice: " + speech.error().message);
-  return *std::move(speech);
+/// What a voice has made of a request.
+template <class Made>
+Made spoken(Result<Made> made) {
+  if (!made && made.error().code == ErrorCode::unsupported)
+    refuse("invalid-field", made.error().message, "/" + made.error().where);
+  if (!made) refuse("voice-failed", "the voice: " + made.error().message);
+  return *std::move(made);
 }
 
 SpeechRecord speech_of(Context& context, const http::Request& request) {
@@ -181,31 +180,21 @@ void add_file(Context& context, SpeechRecord& speech, std::string_view name, std
   speech.files.push_back({std::string(name), blob->sha256, blob->bytes, std::string(type)});
 }
 
-/// The sound as packets on the clock of its performance.
-std::vector<SoundPacket> sound_of(std::span<const std::int16_t> samples, std::uint32_t sample_rate) {
-  if (samples.empty()) return {};
-  auto packets = voice::sound_packets(samples, sample_rate);
-  if (!packets) refuse("internal", "the sound cannot be coded: " + packets.error().message);
-  std::vector<SoundPacket> sound;
-  for (std::size_t i = 0; i < packets->size(); ++i)
-    if (auto& packet = (*packets)[i]; !packet.empty())
-      sound.push_back({static_cast<std::uint64_t>(static_cast<double>(i) * voice::packet_ms), std::move(packet)});
-  return sound;
+auto take_speaker(Context& context) {
+  auto place = context.speakers->place();
+  if (!place)
+    refuse_for_now("as many streams are speaking as the server lets speak at the same time", retry_after_voices);
+  return place;
 }
 
-http::Response play(Context& context, const http::Request& request, const PerformanceScript& script,
-                    std::vector<SoundPacket> sound, bool take_over) {
-  const auto& stream = request.params.at("stream");
-  const auto info = context.hub.info(stream);
-  if (!info) refuse("not-found", "there is no stream " + stream);
-  auto compiled = Performance::compile(script);
-  if (!compiled) refuse("internal", "the speech cannot be played: " + compiled.error().message);
+/// Plays what has been made of a speech, and has the rest made.
+http::Response play(Context& context, const http::Request& request, LiveSpeech speech, std::shared_ptr<void> place,
+                    bool take_over) {
   streams::PlayOptions options;
   options.take_over = take_over;
-  return play_into(context, stream,
-                   streams::make_performance_source(
-                       *std::move(compiled), scaled_quantizers(info->settings.quantizer_scale), std::move(sound)),
-                   options);
+  auto response = play_into(context, request.params.at("stream"), speech.source(), options);
+  LiveSpeech::make_rest(std::move(speech), *context.speakers, std::move(place));
+  return response;
 }
 
 /// Makes and keeps a speech, unless an earlier request with the same key and fingerprint has.
@@ -297,7 +286,10 @@ http::Response create_speech(Context& context, http::Request& request) {
   const auto body = body_object(request);
   refuse_unknown_members(body, body_members::speech_request);
   const auto wish = speech_request(body);
-  return create(context, request, body.dump(), sha256_hex(request.body), [&] { return make(context, wish); });
+  return create(context, request, body.dump(), sha256_hex(request.body), [&] {
+    const auto slot = take_voice_slot(context);
+    return spoken(voice::make_speech(context.config.voice, wish));
+  });
 }
 
 http::Response list_voices(Context& context, http::Request&) {
@@ -353,16 +345,20 @@ http::Response get_speech_captions(Context& context, http::Request& request) {
 }
 
 http::Response speak_into_stream(Context& context, http::Request& request) {
-  if (!context.hub.info(request.params.at("stream")))
-    refuse("not-found", "there is no stream " + request.params.at("stream"));
+  const auto info = context.hub.info(request.params.at("stream"));
+  if (!info) refuse("not-found", "there is no stream " + request.params.at("stream"));
+  const auto steps = scaled_quantizers(info->settings.quantizer_scale);
   const auto body = body_object(request);
   refuse_unknown_members(body, body_members::stream_speech);
   const bool take_over = flag_member(body, "take_over");
   if (!body.contains("speech")) {
     refuse_without_voice(context);
-    const auto speech = make(context, speech_request(body));
-    return play(context, request, speech.performance, sound_of(speech.utterance.samples, speech.utterance.sample_rate),
-                take_over);
+    auto place = take_speaker(context);
+    auto first = [&] {
+      const auto slot = take_voice_slot(context);
+      return LiveSpeech::of_text(spoken(voice::SpeechParts::read(context.config.voice, speech_request(body))), steps);
+    }();
+    return play(context, request, spoken(std::move(first)), std::move(place), take_over);
   }
   for (const auto& member : body.items())
     if (member.key() != "speech" && member.key() != "take_over")
@@ -373,17 +369,20 @@ http::Response speak_into_stream(Context& context, http::Request& request) {
   if (rights.limited() && (!speech || speech->owner != rights.token))
     refuse("forbidden", "the token may not read this speech", "/speech");
   if (!speech) refuse("invalid-field", "there is no speech " + id, "/speech");
+  auto place = take_speaker(context);
   const MappedFile file(context.blobs.whole(file_of(*speech, performance).sha256));
   const auto script = read_performance(file.text());
   if (!script) refuse("internal", "the speech cannot be read: " + script.error().message);
-  std::vector<SoundPacket> sound;
+  Recording sound;
   if (has_file(*speech, audio)) {
     const MappedFile audio_file(context.blobs.whole(file_of(*speech, audio).sha256));
-    const auto recording = read_wav(audio_file.text());
+    auto recording = read_wav(audio_file.text());
     if (!recording) refuse("internal", "the sound cannot be read: " + recording.error().message);
-    sound = sound_of(recording->samples, recording->sample_rate);
+    sound = *std::move(recording);
   }
-  return play(context, request, *script, std::move(sound), take_over);
+  auto live = LiveSpeech::of_speech(*script, sound, steps);
+  if (!live) refuse("internal", "the speech cannot be played: " + live.error().message);
+  return play(context, request, *std::move(live), std::move(place), take_over);
 }
 
 }  // namespace semblante::api

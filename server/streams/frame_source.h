@@ -31,9 +31,14 @@ class SoundCursor {
   virtual void advance() = 0;
 };
 
+/// Whether more of a source is to come while it plays.
+struct Making {
+  bool complete = true;
+  std::string failure = {};  ///< for people: why it ends early; empty: it does not
+};
+
 /// A source that has a face for every time and can be played into a stream: a performance, a .fap file, a recording.
-/// Immutable, so any thread may use it. A new kind of source implements this interface and is passed to
-/// StreamHub::play.
+/// Any thread may use it. A new kind of source implements this interface and is passed to StreamHub::play.
 class FrameSource {
  public:
   virtual ~FrameSource() = default;
@@ -41,8 +46,9 @@ class FrameSource {
   [[nodiscard]] virtual std::string_view kind() const = 0;
   /// For display; may be empty.
   [[nodiscard]] virtual std::string name() const = 0;
-  /// In ms; 0: endless.
+  /// In ms; 0: endless. Of a source that is still being made: of what there is.
   [[nodiscard]] virtual double duration() const = 0;
+  [[nodiscard]] virtual Making making() const { return {}; }
   /// The face `ms` after the beginning, 0..duration. `played_ms` is the same time without starting over in each round
   /// of a loop; noise uses it so as not to repeat.
   [[nodiscard]] virtual FaceFrame frame_at(double ms, double played_ms) const = 0;

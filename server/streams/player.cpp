@@ -25,12 +25,16 @@ Player::Player(std::string id, std::shared_ptr<Stream> stream, std::uint64_t tic
       source_(std::move(source)),
       options_(options),
       begin_(begin),
-      end_(options.loop || source_->duration() <= 0.0 ? std::numeric_limits<double>::infinity()
-                                                      : std::max(0.0, source_->duration() - options.from)),
       next_(begin),
       frames_(source_->frames_from(options.from)),
       sound_(source_->sound_from(options.from)),
       rounds_ms_(-options.from) {}
+
+double Player::end() const {
+  // In this order: once it is complete, its duration does not change.
+  const bool has_end = !options_.loop && source_->making().complete && source_->duration() > 0.0;
+  return has_end ? std::max(0.0, source_->duration() - options_.from) : std::numeric_limits<double>::infinity();
+}
 
 Player::Clock::time_point Player::time_of(double played_ms) const {
   return begin_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double, std::milli>(played_ms));
@@ -70,15 +74,16 @@ void Player::play_at_rate(Clock::time_point now) {
   const double since = ms_between(begin_, now);
   frame_ = std::max(frame_, static_cast<std::uint64_t>(std::floor(since / frame_ms())));
   double played = static_cast<double>(frame_) * frame_ms();
-  const bool last = played >= end_ || since >= end_;
-  if (last) played = end_;
+  const double end_ms = end();
+  const bool last = played >= end_ms || since >= end_ms;
+  if (last) played = end_ms;
   double at = options_.from + played;
   if (options_.loop && source_->duration() > 0.0) at = std::fmod(at, source_->duration());
   const bool taken = publish(played, source_->frame_at(at, options_.from + played));
   ++frame_;
   finished_ = last || !taken;
   if (last) stream_->end_playing(ticket_, false);
-  next_ = time_of(std::min(end_, static_cast<double>(frame_) * frame_ms()));
+  next_ = time_of(std::min(end_ms, static_cast<double>(frame_) * frame_ms()));
 }
 
 void Player::play_frames(Clock::time_point now) {
@@ -122,7 +127,8 @@ PlayStatus Player::status(Clock::time_point now) const {
   status.duration = source_->duration();
   status.rate = options_.rate;
   status.loop = options_.loop;
-  const double played = std::clamp(ms_between(begin_, now), 0.0, end_);
+  const double played = std::clamp(ms_between(begin_, now), 0.0, end());
+  status.making = source_->making();
   status.position = options_.from + played;
   if (options_.loop && status.duration > 0.0) status.position = std::fmod(status.position, status.duration);
   return status;

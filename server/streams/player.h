@@ -36,6 +36,8 @@ class Player {
   /// When the next frame or sound is due; Clock::time_point::max() when there is none.
   [[nodiscard]] Clock::time_point next() const { return std::min(next_, next_sound_time()); }
   [[nodiscard]] bool finished() const { return finished_; }
+  /// Memory use of its source. Any thread.
+  [[nodiscard]] std::size_t source_bytes() const { return source_->bytes(); }
   [[nodiscard]] const std::string& id() const { return id_; }
 
   /// Sends the sound that is due, without packets that are more than 200 ms late, and the newest frame that is due; of
@@ -52,6 +54,8 @@ class Player {
   static constexpr std::size_t most_at_once = 512;
 
  private:
+  /// ms after begin_; infinite when looped, endless or not complete.
+  [[nodiscard]] double end() const;
   bool publish(double played_ms, const FaceFrame& face);
   void play_at_rate(Clock::time_point now);
   void play_frames(Clock::time_point now);
@@ -66,7 +70,6 @@ class Player {
   const std::shared_ptr<const FrameSource> source_;
   const PlayOptions options_;
   const Clock::time_point begin_;
-  double end_;              ///< ms after begin_; infinite when looped or endless
   Clock::time_point next_;  ///< frame
   std::uint64_t frame_ = 0;
   std::unique_ptr<FrameCursor> frames_;  ///< null: played at a rate

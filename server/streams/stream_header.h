@@ -16,7 +16,7 @@ Header stream_header(const StreamInfo& stream, std::uint64_t sequence);
 Header connection_header(const StreamInfo& stream, std::uint64_t sequence, std::uint64_t media_time, double rate,
                          bool recovered, bool sound);
 
-/// The sound that every stream can have. Its packets are made by voice/sound_packets.h.
+/// The sound that every stream can have. Its packets are made by voice/sound_coder.h.
 inline constexpr SoundTrack stream_sound = {SoundCodec::opus, 48'000, 1, 20'000};
 
 }  // namespace semblante::streams

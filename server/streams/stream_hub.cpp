@@ -79,6 +79,7 @@ bool InProcessHub::close(std::string_view id, EndReason reason) {
   for (auto* players : {&playing_, &fillings_}) {
     if (const auto player = players->find(id); player != players->end()) players->erase(player);
   }
+  if (const auto failed = failed_.find(id); failed != failed_.end()) failed_.erase(failed);
   gone_ += stream->counts();
   return true;
 }
@@ -106,6 +107,8 @@ StreamInfo InProcessHub::full_info(std::string_view id, const Stream& stream) co
     const bool plays = info.active_source && *info.active_source != Source::connection;
     if (plays && !playing->player.finished()) info.playing = playing->player.status(Player::Clock::now());
   }
+  const std::lock_guard lock(mutex_);
+  if (const auto failed = failed_.find(id); failed != failed_.end()) info.failed = failed->second;
   return info;
 }
 
@@ -172,7 +175,7 @@ Result<PlayStatus> InProcessHub::play(std::string_view id, std::shared_ptr<const
   const auto found = streams_.find(id);
   if (stopping_ || found == streams_.end()) return Error{ErrorCode::missing, "", "there is no such stream"};
   std::size_t bytes = source->bytes();
-  for (const auto& [stream, playing] : playing_) bytes += stream == id ? 0 : playing->bytes;
+  for (const auto& [stream, playing] : playing_) bytes += stream == id ? 0 : playing->player.source_bytes();
   if (bytes > limits_.playing_bytes)
     return Error{ErrorCode::too_large, "", "the memory limit of all playing sources is reached"};
   auto ticket = found->second->begin_playing(options.rate, options.take_over, played_source(source->kind()));
@@ -182,11 +185,11 @@ Result<PlayStatus> InProcessHub::play(std::string_view id, std::shared_ptr<const
   const auto begin = std::max(now, found->second->newest_frame_time());
   // Like epochs, ids never repeat across restarts, so that an old URL never stops another play.
   last_play_ = std::max(last_play_ + 1, static_cast<std::uint64_t>(server_time_now()));
-  const std::size_t own_bytes = source->bytes();
   auto playing = std::make_shared<Playing>(
-      Player(std::to_string(last_play_), found->second, *ticket, std::move(source), options, begin), own_bytes);
+      Player(std::to_string(last_play_), found->second, *ticket, std::move(source), options, begin));
   PlayStatus status = playing->player.status(now);
   playing_[std::string(id)] = std::move(playing);
+  if (const auto failed = failed_.find(id); failed != failed_.end()) failed_.erase(failed);
   more_to_play_ = true;
   changed_.notify_all();
   return status;
@@ -211,10 +214,17 @@ std::vector<std::shared_ptr<InProcessHub::Playing>> InProcessHub::all_playing() 
 }
 
 void InProcessHub::forget(const std::vector<std::shared_ptr<Playing>>& finished) {
-  const std::lock_guard lock(mutex_);
   for (const auto& done : finished) {
+    PlayStatus status;
+    {
+      const std::lock_guard lock(done->mutex);
+      status = done->player.status(Player::Clock::now());
+    }
+    const std::lock_guard lock(mutex_);
     const auto found = std::find_if(playing_.begin(), playing_.end(), [&](const auto& p) { return p.second == done; });
-    if (found != playing_.end()) playing_.erase(found);
+    if (found == playing_.end()) continue;
+    if (!status.making.failure.empty()) failed_[found->first] = std::move(status);
+    playing_.erase(found);
   }
 }
 

@@ -84,10 +84,9 @@ class InProcessHub : public StreamHub {
  private:
   /// Its mutex is locked before a stream's, never after.
   struct Playing {
-    explicit Playing(Player made, std::size_t source_bytes = 0) : player(std::move(made)), bytes(source_bytes) {}
+    explicit Playing(Player made) : player(std::move(made)) {}
     std::mutex mutex;
     Player player;
-    const std::size_t bytes;  ///< of its source; 0 for the demo, which all streams share
   };
 
   [[nodiscard]] std::shared_ptr<Stream> find(std::string_view id) const;
@@ -95,6 +94,7 @@ class InProcessHub : public StreamHub {
   [[nodiscard]] StreamInfo full_info(std::string_view id, const Stream& stream) const;
   void run();
   [[nodiscard]] std::vector<std::shared_ptr<Playing>> all_playing() const;
+  /// With the mutex of none of them.
   void forget(const std::vector<std::shared_ptr<Playing>>& finished);
 
   const StreamLimits limits_;
@@ -110,6 +110,7 @@ class InProcessHub : public StreamHub {
   std::map<std::string, std::shared_ptr<Stream>, std::less<>> streams_;
   std::map<std::string, std::shared_ptr<Playing>, std::less<>> playing_;   ///< by stream
   std::map<std::string, std::shared_ptr<Playing>, std::less<>> fillings_;  ///< by stream: its own filling
+  std::map<std::string, PlayStatus, std::less<>> failed_;  ///< by stream: its last play, if that failed
   std::uint64_t last_play_ = 0;
   StreamCounts gone_;  ///< sum of the counts of streams that have ended
   std::thread thread_;

@@ -8,6 +8,7 @@
 
 #include "server/settings/stream_settings.h"
 #include "server/streams/encoding.h"
+#include "server/streams/frame_source.h"
 #include "server/streams/source.h"
 #include "server/streams/stream_counts.h"
 
@@ -16,10 +17,11 @@ namespace semblante::streams {
 /// The play that is running in a stream. Times in ms.
 struct PlayStatus {
   std::string id, kind, name;
-  double duration = 0.0;  ///< 0: endless
+  double duration = 0.0;  ///< 0: endless; while it is being made: of what there is
   double position = 0.0;
   double rate = 0.0;  ///< frames per second
   bool loop = false;
+  Making making = {};
 };
 
 /// The status of a stream. A stream is made from the first four members.
@@ -31,6 +33,7 @@ struct StreamInfo {
   std::uint64_t sequence = 0;  ///< of the newest frame taken
   std::size_t subscribers = 0, publishers = 0;
   std::optional<PlayStatus> playing;      ///< filled in by the hub
+  std::optional<PlayStatus> failed{};     ///< the last play, if it ended early; filled in by the hub
   std::uint64_t clamped_values = 0;       ///< values outside the range of their FAP
   std::optional<Source> active_source{};  ///< feeds it now; requests: within the last seconds
   std::array<std::size_t, coding_count> subscribers_by_coding{};

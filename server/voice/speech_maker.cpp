@@ -1,6 +1,7 @@
 #include "server/voice/speech_maker.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/speech/alignment.h"
@@ -43,52 +44,122 @@ void add_whole(MarkedText& marked, std::uint8_t expression, double intensity) {
     marked.emotions.insert(marked.emotions.begin(), {expression, intensity, {0, marked.text.size()}});
 }
 
-}  // namespace
-
-Result<Speech> make_speech(const VoiceProgram& program, const SpeechRequest& request) {
+Result<SpeechRequest> with_prosody(SpeechRequest request) {
   // Marks are read after the checks: it must be text at all.
   if (const auto checked = check(request.voice); !checked) return checked.error();
-  VoiceRequest wish = request.voice;
+  if (request.voice.ssml) return request;
+  auto marked = read_marked_text(request.voice.text);
+  if (!marked) return marked.error();
+  add_whole(*marked, request.expression, request.intensity);
+  const Prosody prosody = prosody_of(*marked);
+  request.voice.rate = std::clamp(request.voice.rate * prosody.rate, least_factor, most_factor);
+  request.voice.pitch = std::clamp(request.voice.pitch * prosody.pitch, least_factor, most_factor);
+  return request;
+}
+
+/// What is said of a text with its marks.
+struct Spoken {
   MarkedText marked;
+  Utterance utterance;
+};
+
+/// `text`: of the request, or a part of it.
+Result<Spoken> spoken(const VoiceProgram& program, const SpeechRequest& request, std::string_view text,
+                      const std::function<bool()>& wanted = {}) {
+  VoiceRequest wish = request.voice;
   MarkedSsml ssml;
-  bool ends_here = true;
+  Spoken said;
   if (wish.ssml) {
-    auto read = read_marked_ssml(wish.text);
+    auto read = read_marked_ssml(text);
     if (!read) return read.error();
     ssml = *std::move(read);
-    marked = ssml.said;
+    said.marked = ssml.said;
+    wish.text = ssml.document;
   } else {
-    auto read = read_marked_text(wish.text);
+    auto read = read_marked_text(text);
     if (!read) return read.error();
-    marked = *std::move(read);
+    said.marked = *std::move(read);
+    wish.text = said.marked.text;
   }
-  add_whole(marked, request.expression, request.intensity);
-  if (!wish.ssml) {
-    const Prosody prosody = prosody_of(marked);
-    wish.rate = std::clamp(wish.rate * prosody.rate, least_factor, most_factor);
-    wish.pitch = std::clamp(wish.pitch * prosody.pitch, least_factor, most_factor);
-  }
-  if (request.part && !wish.ssml) {
-    const auto parts = first_part(wish.text);
-    if (!parts) return parts.error();
-    auto read = read_marked_text(parts->first);
-    if (!read) return read.error();
-    marked = *std::move(read);
-    add_whole(marked, request.expression, request.intensity);
-    ends_here = parts->rest.empty();
-  }
-  wish.text = wish.ssml ? ssml.document : marked.text;
-  auto spoken = speak(program, wish);
-  if (!spoken) return spoken.error();
-  if (wish.ssml) place_in_text(ssml, *spoken);
-  Speech speech;
-  speech.text = std::move(marked.text);
-  speech.utterance = with_silence(*std::move(spoken), speech_lead_ms, ends_here ? speech_tail_ms : 0.0);
-  if (!has_sound_table(wish.language)) speech.warnings.push_back(no_table_warning(wish.language));
+  add_whole(said.marked, request.expression, request.intensity);
+  auto utterance = speak(program, wish, wanted);
+  if (!utterance) return utterance.error();
+  if (wish.ssml) place_in_text(ssml, *utterance);
+  said.utterance = *std::move(utterance);
+  return said;
+}
+
+/// Nothing is left to say in it but marks.
+bool is_blank(const std::string& text) {
+  const auto marked = read_marked_text(text);
+  return marked && marked->text.find_first_not_of(" \t\n") == std::string::npos;
+}
+
+SpeechOptions face_of(const SpeechRequest& request) {
   SpeechOptions face = request.face;
-  face.language = speech.sounds = wish.language;
-  speech.performance = speech_performance(speech.utterance, marked.emotions, face);
+  face.language = request.voice.language;
+  return face;
+}
+
+}  // namespace
+
+Result<Speech> make_speech(const VoiceProgram& program, const SpeechRequest& given) {
+  const auto request = with_prosody(given);
+  if (!request) return request.error();
+  TextParts parts{request->voice.text, {}};
+  if (request->part && !request->voice.ssml) {
+    auto cut = first_part(request->voice.text);
+    if (!cut) return cut.error();
+    parts = *std::move(cut);
+  }
+  auto said = spoken(program, *request, parts.first);
+  if (!said) return said.error();
+  Speech speech;
+  speech.text = std::move(said->marked.text);
+  speech.utterance =
+      with_silence(std::move(said->utterance), speech_lead_ms, parts.rest.empty() ? speech_tail_ms : 0.0);
+  speech.sounds = request->voice.language;
+  if (!has_sound_table(speech.sounds)) speech.warnings.push_back(no_table_warning(speech.sounds));
+  speech.performance = speech_performance(speech.utterance, said->marked.emotions, face_of(*request));
   return speech;
+}
+
+Result<SpeechParts> SpeechParts::read(VoiceProgram program, SpeechRequest request) {
+  auto checked = with_prosody(std::move(request));
+  if (!checked) return checked.error();
+  return SpeechParts(std::move(program), *std::move(checked));
+}
+
+Result<SpeechPart> SpeechParts::next(const std::function<bool()>& wanted) {
+  TextParts parts{request_.voice.text, {}};
+  if (!request_.voice.ssml) {
+    auto cut = first_part(request_.voice.text);
+    if (!cut) return cut.error();
+    parts = *std::move(cut);
+  }
+  auto said = spoken(program_, request_, parts.first, wanted);
+  // A voice says nothing of "* * *"; the text goes on.
+  if (!said && said.error().code == ErrorCode::empty && !first_) {
+    Spoken silent;
+    silent.utterance.sample_rate = least_sample_rate;
+    said = std::move(silent);
+  }
+  if (!said) return said.error();
+  SpeechPart part;
+  part.lead = first_ ? 0.0 : emotion_lead_ms;
+  done_ = is_blank(parts.rest);
+  part.sound = with_silence(said->utterance, first_ ? speech_lead_ms : 0.0, done_ ? speech_tail_ms : 0.0);
+  said_ms_ += part.sound.duration;
+  if (said_ms_ > max_seconds * 1000.0)
+    return Error{ErrorCode::too_large, "voice", "speaks longer than " + std::to_string(std::lround(max_seconds)) + " s"};
+  // The face has its time to get ready and to come to rest in the pauses between the parts.
+  const Utterance seen =
+      with_silence(std::move(said->utterance), first_ ? speech_lead_ms : part.lead, speech_tail_ms);
+  part.face = speech_performance(seen, said->marked.emotions, face_of(request_));
+  request_.voice.text = std::move(parts.rest);
+  ++request_.face.seed;
+  first_ = false;
+  return part;
 }
 
 Result<Speech> make_speech(const TimelineRequest& request) {

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/performance/cue.h"
@@ -37,6 +39,36 @@ struct Speech {
 /// Takes the marks out of the text, has the voice speak it, faster or slower and higher or lower as the emotions want,
 /// and makes the face. Blocks as speak(). Errors: those of check(), read_marked_text() and speak().
 Result<Speech> make_speech(const VoiceProgram& program, const SpeechRequest& request);
+
+/// A part of a text, to be played after the parts before it.
+struct SpeechPart {
+  Utterance sound;         ///< its times begin with its first sample
+  PerformanceScript face;  ///< on a clock on which the sound begins at `lead`; it goes on after the sound
+  double lead = 0.0;       ///< ms
+};
+
+/// A text in parts, sentence by sentence, so that the first can be heard while the others are made. Together their sound
+/// is that of the whole text; only the first begins with silence, and only the last ends with it. SSML is one part. One
+/// thread.
+class SpeechParts {
+ public:
+  /// Checks the request. Errors: those of check() and read_marked_text().
+  static Result<SpeechParts> read(VoiceProgram program, SpeechRequest request);
+
+  [[nodiscard]] bool done() const { return done_; }
+  /// The next part. Blocks as speak(), with `wanted`. Errors: as there; `too_large`: the parts together are longer than
+  /// a speech may be.
+  Result<SpeechPart> next(const std::function<bool()>& wanted = {});
+
+ private:
+  SpeechParts(VoiceProgram program, SpeechRequest request)
+      : program_(std::move(program)), request_(std::move(request)) {}
+
+  VoiceProgram program_;
+  SpeechRequest request_;  ///< its text is what is left to say
+  bool first_ = true, done_ = false;
+  double said_ms_ = 0.0;
+};
 
 /// What somebody else has said, and how a face says it.
 struct SaidRequest {

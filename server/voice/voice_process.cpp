@@ -45,7 +45,7 @@ std::string with_last_words(std::string message, const std::string& words) {
 bool is_missing(const VoiceProgram& program) { return program.command.empty() || program.command[0].empty(); }
 
 /// Has the program answer to its end.
-Result<VoiceAnswer> ask(const VoiceProgram& program, std::string_view input) {
+Result<VoiceAnswer> ask(const VoiceProgram& program, std::string_view input, const std::function<bool()>& wanted = {}) {
   const ErrorFile errors(program.temporary);
   if (errors.path().empty()) return Error{ErrorCode::io, "", "cannot make a temporary file"};
 
@@ -61,10 +61,11 @@ Result<VoiceAnswer> ask(const VoiceProgram& program, std::string_view input) {
         if (fault) return;
         if (const auto taken = answer.take(line); !taken) fault = taken.error();
       },
-      [&fault] { return fault ? jobs::Wish::stop : jobs::Wish::go_on; }, limits);
+      [&] { return fault || (wanted && !wanted()) ? jobs::Wish::stop : jobs::Wish::go_on; }, limits);
   if (!exit) return exit.error();
   if (fault) return *fault;
   using Kind = jobs::WorkerExit::Kind;
+  if (exit->kind == Kind::stopped) return Error{ErrorCode::cancelled, "voice", "is not wanted any more"};
   if (exit->kind == Kind::timed_out)
     return Error{ErrorCode::io, "voice", "took longer than " + std::to_string(program.wall_seconds) + " s"};
   if (exit->kind == Kind::signalled)
@@ -77,10 +78,11 @@ Result<VoiceAnswer> ask(const VoiceProgram& program, std::string_view input) {
   return answer;
 }
 
-Result<VoiceAnswer> ask(const VoiceProgram& voice, const VoiceRequest& request) {
+Result<VoiceAnswer> ask(const VoiceProgram& voice, const VoiceRequest& request,
+                        const std::function<bool()>& wanted = {}) {
   if (is_missing(voice))
     return Error{ErrorCode::missing, "voice", "there is no voice: " + std::string(usual_name) + " is not installed"};
-  return ask(voice, to_json(request));
+  return ask(voice, to_json(request), wanted);
 }
 
 /// The program beside this one; empty if there is none.
@@ -94,9 +96,10 @@ std::string installed(const char* name) {
 std::string installed_voice() { return installed(usual_name); }
 std::string installed_sound_reader() { return installed(sound_reader_name); }
 
-Result<Utterance> speak(const VoiceProgram& program, const VoiceRequest& request) {
+Result<Utterance> speak(const VoiceProgram& program, const VoiceRequest& request,
+                        const std::function<bool()>& wanted) {
   if (const auto checked = check(request); !checked) return checked.error();
-  auto answer = ask(program, request);
+  auto answer = ask(program, request, wanted);
   if (!answer) return answer.error();
   return (*std::move(answer)).finish();
 }

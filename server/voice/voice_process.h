@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -28,8 +29,9 @@ std::string installed_sound_reader();
 /// Starts the voice, with its limits in force before it gets the request, and reads its answer. A voice that breaks the
 /// protocol is killed at the first wrong line. Blocks until the process has ended. Errors: those of check() and
 /// VoiceAnswer; `io`: it cannot be started, crashed, or reached a limit, with the end of what it wrote to standard
-/// error.
-Result<Utterance> speak(const VoiceProgram& program, const VoiceRequest& request);
+/// error; `cancelled`: `wanted`, asked a few times per second, was false, and the voice was killed.
+Result<Utterance> speak(const VoiceProgram& program, const VoiceRequest& request,
+                        const std::function<bool()>& wanted = {});
 
 /// The voices that the program knows. Errors as those of speak().
 Result<std::vector<VoiceName>> list_voices(const VoiceProgram& program);

@@ -13,7 +13,7 @@
 #include "server/recordings/recording_writer.h"
 #include "server/streams/batch_listener.h"
 #include "server/streams/player.h"
-#include "server/voice/sound_packets.h"
+#include "server/voice/sound_coder.h"
 #include "tests/unit/recordings/recorded_frames.h"
 
 namespace semblante::recordings {
@@ -304,11 +304,10 @@ std::vector<SoundPacket> tones_at(const std::vector<double>& times, double durat
     for (int i = 0; i < 2400; ++i)
       samples[static_cast<std::size_t>(time * 24.0) + static_cast<std::size_t>(i)] =
           static_cast<std::int16_t>(12'000.0 * std::sin(2.0 * std::numbers::pi * 500.0 * i / 24'000.0));
-  const auto packets = voice::sound_packets(samples, 24'000);
-  EXPECT_TRUE(packets);
+  auto coder = voice::SoundCoder::make();
+  EXPECT_TRUE(coder && coder->add(samples, 24'000));
   std::vector<SoundPacket> sound;
-  for (std::size_t i = 0; i < packets->size(); ++i)
-    if (!(*packets)[i].empty()) sound.push_back({first_time + 60 * i, (*packets)[i]});
+  for (auto& coded : *coder->code(duration)) sound.push_back({first_time + coded.time, std::move(coded.packet)});
   return sound;
 }
 
