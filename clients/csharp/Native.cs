@@ -69,7 +69,7 @@ static unsafe class Native {
         public ulong Seed;
         public double PingInterval, SilenceLimit, Batch;
         public ulong ResumeEpoch, ResumeSequence;
-        public uint Sound, Reserved;
+        public uint Sound, Text;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -81,6 +81,8 @@ static unsafe class Native {
         public double Duration;
         public byte* Packet;
         public uint PacketSize, Reserved;
+        public byte* Text;
+        public byte* Language;
     }
 
     [StructLayout(LayoutKind.Sequential)]

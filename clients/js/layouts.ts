@@ -20,6 +20,7 @@ export const streamOptionsLayout = {
   ping_interval: 40,
   silence_limit: 48,
   sound: 80,
+  text: 84,
   size: 88,
 } as const;
 
@@ -37,7 +38,9 @@ export const eventLayout = {
   duration: 416,
   packet: 424,
   packet_size: 428,
-  size: 440,
+  text: 436,
+  language: 440,
+  size: 448,
 } as const;
 
 export const headerLayout = {

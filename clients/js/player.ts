@@ -32,6 +32,11 @@ export interface PlayerOptions {
    * display's clock is used then. See `updateTo`.
    */
   clock?: () => number;
+  /**
+   * Changes a copy of the stream's newest shown frame, a semblante_frame in the memory of `runtime`, and shows it in its place
+   * while it returns true: see StreamSpeech.
+   */
+  overlay?: (runtime: Runtime, frame: number) => boolean;
 }
 
 /** Statistics of a playout. Times in ms. */
@@ -66,6 +71,8 @@ interface PlayerMemory {
   readonly player: number;
   readonly moment: number;
   readonly statistics: number;
+  /** The frame of the overlay. */
+  readonly laid: number;
 }
 
 /**
@@ -90,6 +97,7 @@ export class Player {
   private toTime = NaN;
   private shownT = NaN;
   private isCurve = false;
+  private isLaid = false;
   private readonly spans = [0, 0, 0];
 
   constructor(poses: PoseMaker | null, options: PlayerOptions = {}) {
@@ -174,10 +182,31 @@ export class Player {
   update(deltaSeconds: number): boolean {
     if (this.memory === null) return false;
     const mediaTime = this.options.clock?.() ?? NaN;
-    if (Number.isFinite(mediaTime)) return this.updateTo(mediaTime);
-    const { runtime, player } = this.memory;
-    if (runtime.functions.semblante_player_advance(player, this.now(), deltaSeconds * 1000) === 0) return false;
-    return this.showMoment(this.memory);
+    const moved = Number.isFinite(mediaTime) ? this.updateTo(mediaTime) : this.advance(this.memory, deltaSeconds * 1000);
+    return this.layOver(this.memory, moved);
+  }
+
+  private advance(memory: PlayerMemory, elapsed: number): boolean {
+    if (memory.runtime.functions.semblante_player_advance(memory.player, this.now(), elapsed) === 0) return false;
+    return this.showMoment(memory);
+  }
+
+  private layOver(memory: PlayerMemory, moved: boolean): boolean {
+    const { poses } = this;
+    const { overlay } = this.options;
+    if (!overlay || poses === null) return moved;
+    const { runtime, moment, laid } = memory;
+    const shown = moment + momentLayout.frames + 2 * frameLayout.size;
+    runtime.bytes.copyWithin(laid, shown, shown + frameLayout.size);
+    if (overlay(runtime, laid)) {
+      poses.evaluateAt(runtime, laid, shownPose);
+      this.isLaid = true;
+      return true;
+    }
+    if (!this.isLaid) return moved;
+    this.isLaid = false;
+    this.forgetPoses();
+    return this.showMoment(memory);
   }
 
   /**
@@ -202,11 +231,13 @@ export class Player {
     const player = runtime.create(playerOptionsLayout.size, options, functions.semblante_player_create);
     const moment = runtime.struct(momentLayout.size);
     const statistics = runtime.struct(statisticsLayout.size);
-    this.memory = { runtime, player, moment, statistics };
+    const laid = runtime.alloc(frameLayout.size);
+    this.memory = { runtime, player, moment, statistics, laid };
     this.release = runtime.owns(this, () => {
       functions.semblante_player_destroy(player);
       runtime.free(moment);
       runtime.free(statistics);
+      runtime.free(laid);
     });
   }
 

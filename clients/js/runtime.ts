@@ -26,6 +26,7 @@ export interface Functions extends Memory {
   semblante_stream_header(stream: number, header: number): number;
   semblante_stream_clock(stream: number, now: number, clock: number): number;
   semblante_stream_measure_clock(stream: number, now: number): void;
+  semblante_stream_spoken(stream: number, state: number, speech: bigint, character: number, now: number): number;
   semblante_stream_publish(stream: number, frames: number, count: number, mediaTime: number, now: number): number;
 
   semblante_player_create(options: number, player: number, error: number): number;
@@ -37,6 +38,13 @@ export interface Functions extends Memory {
   semblante_player_time(player: number): number;
   semblante_player_stats(player: number, statistics: number): number;
   semblante_player_clear(player: number): void;
+
+  semblante_speaker_create(seed: number, speaker: number, error: number): number;
+  semblante_speaker_destroy(speaker: number): void;
+  semblante_speaker_say(speaker: number, score: number, size: number, firstWord: number, now: number): number;
+  semblante_speaker_reach(speaker: number, word: number, now: number): void;
+  semblante_speaker_end(speaker: number, now: number): void;
+  semblante_speaker_show(speaker: number, now: number, frame: number): number;
 
   semblante_sha256(bytes: number, size: number, digest: number): number;
 

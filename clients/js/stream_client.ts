@@ -12,6 +12,7 @@ import {
   type StreamError,
   type StreamErrorCode,
   type StreamRole,
+  type VoiceState,
 } from '../../protocol/ts/messages.ts';
 import { ProtocolError } from '../../protocol/ts/protocol_error.ts';
 import { standardQuantizers, type QuantizerSteps } from '../../protocol/ts/quantizers.ts';
@@ -43,6 +44,8 @@ export interface StreamEvents {
   clock: ClockSample;
   /** A packet of the sound, if it was asked for. */
   sound: SoundPacket;
+  /** A sentence for the client's own voice, if it was asked for. */
+  text: SpokenText;
   /** A message of any kind was received. */
   message: void;
 }
@@ -53,6 +56,22 @@ export interface SoundPacket {
   mediaTime: number;
   duration: number;
   packet: Uint8Array<ArrayBuffer>;
+}
+
+/** A sentence that the client's own voice is to say. Times in ms. */
+export interface SpokenText {
+  /** Its number within the epoch. */
+  speech: number;
+  /** When its first word is to begin, on the clock of the frames. */
+  mediaTime: number;
+  /** As the server estimates it. */
+  duration: number;
+  /** BCP 47; empty: unknown. */
+  language: string;
+  /** Empty: what is being said, and what waits, is to stop. */
+  text: string;
+  /** What the mouth does when: section 2.2 of SPEC.md. */
+  score: Uint8Array<ArrayBuffer>;
 }
 
 /** One measurement of the server's clock. Times in ms. */
@@ -70,6 +89,8 @@ export interface StreamOptions {
   takeOver?: boolean;
   /** For a subscriber: ask for the sound of the stream too. Default false. */
   sound?: boolean;
+  /** For a subscriber with a voice of its own: text in place of the frames and the sound of speech. Default false. */
+  text?: boolean;
   /**
    * For a server that asks for tokens, from a page that is not its own: sent as a subprotocol, because a browser's
    * WebSocket carries no header.
@@ -96,6 +117,7 @@ const maxBufferedBytes = 256 * 1024;
 // The enumerations of semblante.h, in order.
 const states: readonly ConnectionState[] = ['closed', 'connecting', 'open', 'waiting'];
 const endReasons: readonly EndReason[] = ['other', 'finished', 'deleted', 'shutdown', 'replaced', 'slow'];
+const voiceStates: readonly VoiceState[] = ['reached', 'ended', 'failed', 'ready'];
 const soundCodecs: readonly SoundCodec[] = ['other', 'opus'];
 const refusals: readonly StreamErrorCode[] = [
   'other',
@@ -127,7 +149,7 @@ const faults: readonly StreamErrorCode[] = [
   'internal',
   'other',
 ];
-const eventType = { state: 1, connect: 2, close: 3, header: 4, keyframe: 5, frames: 6, clock: 7, refused: 8, fault: 9, end: 10, sound: 11 } as const;
+const eventType = { state: 1, connect: 2, close: 3, header: 4, keyframe: 5, frames: 6, clock: 7, refused: 8, fault: 9, end: 10, sound: 11, text: 12 } as const;
 const resumed = 1;
 const ok = 0;
 
@@ -258,6 +280,7 @@ export class StreamClient extends Emitter<StreamEvents> {
       role: 'subscribe',
       takeOver: false,
       sound: false,
+      text: false,
       WebSocket: globalThis.WebSocket,
       now: () => performance.now(),
       backoff: { first: 250, longest: 10_000 },
@@ -314,6 +337,18 @@ export class StreamClient extends Emitter<StreamEvents> {
     return result === ok;
   }
 
+  /**
+   * Tells the server what the client's own voice does: it has `reached` the word at a character (code points) of a text, or `ended`
+   * it; it is `ready`, and text comes in place of frames of speech from now on; or it has `failed`, and frames come. The last two
+   * also hold for later connections.
+   */
+  spoken(state: VoiceState, speech = 0, character = 0): void {
+    this.withStream(({ runtime, stream }) => {
+      runtime.functions.semblante_stream_spoken(stream, voiceStates.indexOf(state), BigInt(speech), character, this.options.now());
+      this.act();
+    });
+  }
+
   /** Sends several pings quickly, after a pause in which the machine may have slept. Their pongs are `clock` events. */
   measureClock(): void {
     if (this.memory === null) return;
@@ -329,7 +364,7 @@ export class StreamClient extends Emitter<StreamEvents> {
 
   private made(runtime: Runtime): StreamMemory {
     if (this.memory) return this.memory;
-    const { role, takeOver, sound, backoff, pingInterval } = this.options;
+    const { role, takeOver, sound, text, backoff, pingInterval } = this.options;
     const memory = new StreamMemory(runtime, (view, at) => {
       const of = streamOptionsLayout;
       view.setUint32(at + of.role, role === 'publish' ? 1 : 0, true);
@@ -340,6 +375,7 @@ export class StreamClient extends Emitter<StreamEvents> {
       view.setUint32(at + of.seed + 4, Math.random() * 4294967296, true);
       view.setFloat64(at + of.ping_interval, pingInterval || -1, true);
       view.setUint32(at + of.sound, sound ? 1 : 0, true);
+      view.setUint32(at + of.text, text ? 1 : 0, true);
     });
     this.memory = memory;
     this.release = runtime.owns(this, () => memory.release());
@@ -401,6 +437,8 @@ export class StreamClient extends Emitter<StreamEvents> {
         return this.takeFrames(memory, type === eventType.keyframe);
       case eventType.sound:
         return this.takeSound(memory);
+      case eventType.text:
+        return this.takeText(memory);
       case eventType.clock:
         return this.emit('clock', {
           roundTrip: view.getFloat64(event + eventLayout.round_trip, true),
@@ -508,6 +546,19 @@ export class StreamClient extends Emitter<StreamEvents> {
       mediaTime: view.getFloat64(event + eventLayout.media_time, true),
       duration: view.getFloat64(event + eventLayout.duration, true),
       packet: runtime.bytes.slice(at, at + view.getUint32(event + eventLayout.packet_size, true)) as Uint8Array<ArrayBuffer>,
+    });
+  }
+
+  private takeText({ runtime, event }: StreamMemory): void {
+    const { view } = runtime;
+    const at = view.getUint32(event + eventLayout.packet, true);
+    this.emit('text', {
+      speech: runtime.wide(event + eventLayout.sequence),
+      mediaTime: view.getFloat64(event + eventLayout.media_time, true),
+      duration: view.getFloat64(event + eventLayout.duration, true),
+      language: runtime.text(view.getUint32(event + eventLayout.language, true)),
+      text: runtime.text(view.getUint32(event + eventLayout.text, true)),
+      score: runtime.bytes.slice(at, at + view.getUint32(event + eventLayout.packet_size, true)) as Uint8Array<ArrayBuffer>,
     });
   }
 

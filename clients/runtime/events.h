@@ -19,6 +19,7 @@ struct Event {
   double media_time = 0, round_trip = 0, server_offset = 0;
   std::unique_ptr<Error> error;
   std::unique_ptr<SoundPacket> sound;
+  std::unique_ptr<SpeechText> text;
 };
 
 /// The events that the caller has not taken yet. Bounded: events that only inform give way to those that ask for
@@ -41,7 +42,7 @@ class Events {
  private:
   static bool only_informs(semblante_event_type type) {
     return type == SEMBLANTE_EVENT_KEYFRAME || type == SEMBLANTE_EVENT_FRAMES || type == SEMBLANTE_EVENT_CLOCK ||
-           type == SEMBLANTE_EVENT_REFUSED || type == SEMBLANTE_EVENT_SOUND;
+           type == SEMBLANTE_EVENT_REFUSED || type == SEMBLANTE_EVENT_SOUND || type == SEMBLANTE_EVENT_TEXT;
   }
   void drop_one() {
     std::size_t oldest = 0;

@@ -1,5 +1,5 @@
 /* libsemblante: everything that a client does between bytes and vertices. Face packages, streams, playing, publishing,
- * performances, takes, bridges and listeners.
+ * performances, takes, bridges, listeners and speakers.
  *
  *   semblante_package package = {0};
  *   package.size = sizeof(package);
@@ -239,8 +239,9 @@ typedef struct semblante_stream_options {
   double batch;         /* publisher: frames of this many ms travel in one message; 0: each publish is a message */
   /* Resume point of the first connection: 0, 0 for none. */
   uint64_t resume_epoch, resume_sequence;
-  uint32_t sound;    /* subscriber: 1 asks for the sound of the stream, whose packets are SOUND events */
-  uint32_t reserved; /* 0 */
+  uint32_t sound; /* subscriber: 1 asks for the sound of the stream, whose packets are SOUND events */
+  uint32_t text;  /* subscriber: 1, the client has a voice of its own: TEXT events in place of frames and sound of
+                     speech. semblante_stream_spoken changes it */
 } semblante_stream_options;
 
 typedef enum semblante_stream_state {
@@ -264,8 +265,12 @@ typedef enum semblante_event_type {
   SEMBLANTE_EVENT_FAULT = 9,    /* a message of the server cannot be read, or it is silent: `code` (semblante_result),
                                    `error`. A new connection follows */
   SEMBLANTE_EVENT_END = 10,     /* the server ends the connection: `code` (semblante_end_reason), `is_final` */
-  SEMBLANTE_EVENT_SOUND = 11    /* a packet of sound, if it was asked for: `media_time` at which it begins to be heard,
+  SEMBLANTE_EVENT_SOUND = 11,   /* a packet of sound, if it was asked for: `media_time` at which it begins to be heard,
                                    `duration`, `packet`, `packet_size` */
+  SEMBLANTE_EVENT_TEXT = 12     /* a sentence for the client's own voice, if it was asked for: `sequence` is its number,
+                                   `text`, `language`, `media_time` at which its first word is to begin, `duration`
+                                   (estimated), and its score in `packet`, `packet_size`. An empty text: the voice is to
+                                   stop. Again with a known number after a new connection: go on */
 } semblante_event_type;
 
 /* Of SEMBLANTE_EVENT_HEADER. */
@@ -320,6 +325,8 @@ typedef struct semblante_event {
   const uint8_t* packet; /* of the codec of semblante_header, valid until the next event is taken; else null */
   uint32_t packet_size;  /* bytes, at most 4000 */
   uint32_t reserved;
+  const char* text;     /* UTF-8, zero-terminated, valid as `packet`; else null */
+  const char* language; /* BCP 47, may be empty; the same */
 } semblante_event;
 
 /* SoundCodec of the protocol. */
@@ -384,7 +391,7 @@ double semblante_stream_wake_time(const semblante_stream* stream);
 /* The next message to send, valid until the next call with this stream; null: none. At most 256 KiB wait. */
 const uint8_t* semblante_stream_take_bytes(semblante_stream* stream, size_t* size);
 /* The next event; 0: none. Take them after each call: at most 64 wait, and beyond that the oldest of KEYFRAME, FRAMES,
- * CLOCK, REFUSED and SOUND are dropped. `event->size` must be set. */
+ * CLOCK, REFUSED, SOUND and TEXT are dropped. `event->size` must be set. */
 uint32_t semblante_stream_next_event(semblante_stream* stream, semblante_event* event);
 /* The frames of the newest KEYFRAME or FRAMES event, with absolute media times, valid until the next message is
  * received; *count 0 and null if there are none. Not const: frames are converted when they are asked for. */
@@ -405,6 +412,21 @@ void semblante_stream_resume_point(const semblante_stream* stream, uint64_t* epo
  * INVALID_ARGUMENT: not a publisher, count 0 or over 1024, FAPs or times that are not finite or out of range. */
 semblante_result semblante_stream_publish(semblante_stream* stream, const semblante_timed_frame* frames, uint32_t count,
                                           double media_time, double now);
+
+/* VoiceState of the protocol. */
+typedef enum semblante_voice_state {
+  SEMBLANTE_VOICE_REACHED = 0, /* it begins the word at `character` */
+  SEMBLANTE_VOICE_ENDED = 1,   /* it has said the text, or was silenced */
+  SEMBLANTE_VOICE_FAILED = 2,  /* it cannot speak: frames from now on, also after a new connection */
+  SEMBLANTE_VOICE_READY = 3    /* it can speak: TEXT events from now on, also after a new connection */
+} semblante_voice_state;
+
+/* Tells the server what the client's own voice does. `speech`: `sequence` of the TEXT event, 0: none; `character`: code
+ * points of the text before the place. FAILED and READY also hold for later connections when there is none now.
+ * UNAVAILABLE, and nothing is sent, while the stream is not OPEN or 256 KiB wait. INVALID_ARGUMENT: not a subscriber,
+ * an unknown state, a character over 2000. */
+semblante_result semblante_stream_spoken(semblante_stream* stream, uint32_t state, uint64_t speech, uint32_t character,
+                                         double now);
 
 /* ---- player: frames of a stream -> the pose to show now
  * -------------------------------------------------------------- */
@@ -575,6 +597,28 @@ void semblante_listener_destroy(semblante_listener* listener);
  * heard; `heard` is not written. INVALID_ARGUMENT: a null, or a `size` that is too small. */
 semblante_result semblante_listener_push(semblante_listener* listener, const float* samples, uint32_t count,
                                          uint32_t* taken, semblante_heard* heard);
+
+/* ---- speakers: the face of a client whose own voice speaks ----------------------------------------------------------
+ *
+ * For TEXT events of a stream. When the voice begins a text, _say; when it begins a word, _reach; when it is silent,
+ * _end; for each picture, _show on the frame that the stream last had. A voice that tells no words is followed by the
+ * times of the score. */
+
+typedef struct semblante_speaker semblante_speaker;
+
+/* `seed`: of its blinks. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
+semblante_result semblante_speaker_create(uint32_t seed, semblante_speaker** speaker, semblante_error* error);
+void semblante_speaker_destroy(semblante_speaker* speaker);
+/* The voice begins at word number `first_word` (from 0; words are what is between spaces, tabs and ends of lines).
+ * INVALID_ARGUMENT: a null, or bytes that are no score. */
+semblante_result semblante_speaker_say(semblante_speaker* speaker, const uint8_t* score, size_t size,
+                                       uint32_t first_word, double now);
+/* Words that the score does not have, or before one that was reached, have no effect. */
+void semblante_speaker_reach(semblante_speaker* speaker, uint32_t word, double now);
+void semblante_speaker_end(semblante_speaker* speaker, double now);
+/* Sets viseme, expression and lids of the frame. Returns 0 and leaves it when nothing is said and the face has come to
+ * rest, and for FAPs that are not finite. */
+uint32_t semblante_speaker_show(semblante_speaker* speaker, double now, semblante_frame* frame);
 
 #ifdef __cplusplus
 }

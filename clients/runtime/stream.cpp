@@ -108,6 +108,7 @@ void Stream::opened(double now) {
   hello.resume = resume_;
   hello.take_over = options_.take_over;
   hello.sound = options_.sound && options_.role == StreamRole::subscribe;
+  hello.text = options_.text && options_.role == StreamRole::subscribe;
   send(hello);
 }
 
@@ -189,6 +190,8 @@ void Stream::take(const Message& message, double now) {
     take_frames(now, false);
   } else if (const auto* sound = std::get_if<SoundPacket>(&message)) {
     take_sound(*sound);
+  } else if (const auto* text = std::get_if<SpeechText>(&message)) {
+    take_text(*text);
   } else if (const auto* pong = std::get_if<Pong>(&message)) {
     take_pong(*pong, now);
   } else if (const auto* end = std::get_if<End>(&message)) {
@@ -254,6 +257,27 @@ void Stream::take_sound(const SoundPacket& sound) {
   event.media_time = static_cast<double>(sound.media_time);
   event.sound = std::make_unique<SoundPacket>(sound);
   events_.push(std::move(event));
+}
+
+void Stream::take_text(const SpeechText& text) {
+  unanswered_since_ = never;
+  if (!greeted_ || !options_.text) return;
+  Event event = event_of(SEMBLANTE_EVENT_TEXT);
+  event.sequence = text.speech;
+  event.media_time = static_cast<double>(text.media_time);
+  event.text = std::make_unique<SpeechText>(text);
+  events_.push(std::move(event));
+}
+
+Stream::Published Stream::spoken(Spoken spoken, double now) {
+  if (options_.role != StreamRole::subscribe) return Published::invalid;
+  if (spoken.state == VoiceState::failed) options_.text = false;
+  if (spoken.state == VoiceState::ready) options_.text = true;
+  if (!greeted_ || outbox_.waiting() > most_waiting) return Published::unavailable;
+  spoken.media_time =
+      static_cast<std::uint64_t>(std::clamp(clock_.at(now).value_or(0), 0.0, static_cast<double>(max_media_time)));
+  send(spoken);
+  return Published::sent;
 }
 
 void Stream::take_pong(const Pong& pong, double now) {

@@ -33,6 +33,7 @@ struct StreamOptions {
   std::size_t max_message_bytes = max_binary_message_bytes;
   std::optional<ResumePoint> resume;
   bool sound = false;
+  bool text = false;  ///< the client has a voice of its own
   /// Writes a message in another form than the binary one, for programs that also speak JSON; null: binary. Such a
   /// program reads messages itself and gives them to `take`.
   void (*encode)(const Message&, const QuantizerSteps&, std::vector<std::uint8_t>& to) = nullptr;
@@ -64,6 +65,8 @@ class Stream {
   enum class Published { sent, unavailable, invalid };
   Published publish(std::span<const semblante_timed_frame> frames, double media_time, double now);
   void measure_clock(double now);
+  /// What the client's own voice does; its media time is set here.
+  Published spoken(Spoken spoken, double now);
 
   Outbox& outbox() { return outbox_; }
   Events& events() { return events_; }
@@ -103,6 +106,7 @@ class Stream {
   void take_header(const Header& header, double now);
   void take_frames(double now, bool is_keyframe);
   void take_sound(const SoundPacket& sound);
+  void take_text(const SpeechText& text);
   void take_pong(const Pong& pong, double now);
   void take_end(const End& end, double now);
 

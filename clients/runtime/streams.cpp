@@ -6,6 +6,7 @@
 #include "clients/runtime/handles.h"
 #include "clients/runtime/times.h"
 #include "protocol/cpp/opus_packet.h"
+#include "protocol/cpp/speech_score.h"
 
 namespace semblante::runtime {
 namespace {
@@ -34,6 +35,7 @@ StreamOptions to_options(const semblante_stream_options& from) {
   options.silence_limit = or_usual(from.silence_limit, options.silence_limit, never);
   options.batch = from.batch;
   options.sound = from.sound != 0;
+  options.text = from.text != 0;
   if (from.resume_epoch != 0) options.resume = ResumePoint{from.resume_epoch, from.resume_sequence};
   return options;
 }
@@ -58,6 +60,14 @@ semblante_event to_event(const Event& from) {
     event.duration = opus_packet_ms(from.sound->packet).value_or(0);
     event.packet = from.sound->packet.data();
     event.packet_size = static_cast<uint32_t>(from.sound->packet.size());
+  }
+  if (from.text) {
+    const auto score = read_score(from.text->score);
+    event.duration = score ? score->duration() : 0;
+    event.packet = from.text->score.data();
+    event.packet_size = static_cast<uint32_t>(from.text->score.size());
+    event.text = from.text->text.c_str();
+    event.language = from.text->language.c_str();
   }
   return event;
 }
@@ -202,6 +212,24 @@ void semblante_stream_resume_point(const semblante_stream* stream, uint64_t* epo
   if (stream != nullptr && stream->it.resume()) point = *stream->it.resume();
   if (epoch != nullptr) *epoch = point.epoch;
   if (sequence != nullptr) *sequence = point.sequence;
+}
+
+semblante_result semblante_stream_spoken(semblante_stream* stream, uint32_t state, uint64_t speech, uint32_t character,
+                                         double now) {
+  if (stream == nullptr || state > SEMBLANTE_VOICE_READY || speech > max_media_time ||
+      character > max_speech_text_bytes || !is_time(now)) {
+    return SEMBLANTE_INVALID_ARGUMENT;
+  }
+  return guarded(nullptr, [&] {
+    switch (stream->it.spoken({static_cast<VoiceState>(state), speech, character, 0}, now)) {
+      case Stream::Published::sent:
+        return SEMBLANTE_OK;
+      case Stream::Published::unavailable:
+        return SEMBLANTE_UNAVAILABLE;
+      default:
+        return SEMBLANTE_INVALID_ARGUMENT;
+    }
+  });
 }
 
 semblante_result semblante_stream_publish(semblante_stream* stream, const semblante_timed_frame* frames, uint32_t count,

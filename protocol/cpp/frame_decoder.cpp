@@ -7,6 +7,7 @@
 #include "protocol/cpp/frame_codec.h"
 #include "protocol/cpp/opus_packet.h"
 #include "protocol/cpp/packed_codec.h"
+#include "protocol/cpp/speech_score.h"
 #include "protocol/cpp/utf8.h"
 
 namespace semblante {
@@ -128,6 +129,9 @@ Result<Message> read_message(std::span<const std::uint8_t> body) {
   if (reader.error()) return *reader.error();
   if constexpr (std::is_same_v<M, SoundPacket>) {
     if (auto status = check_sound(message); !status) return std::move(status).error();
+  }
+  if constexpr (std::is_same_v<M, SpeechText>) {
+    if (auto status = check_text(message); !status) return std::move(status).error();
   }
   return Message(std::move(message));  // bytes after the last field belong to a later version
 }

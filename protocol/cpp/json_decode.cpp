@@ -9,6 +9,7 @@
 #include "protocol/cpp/json_bridges.h"
 #include "protocol/cpp/json_codec.h"
 #include "protocol/cpp/opus_packet.h"
+#include "protocol/cpp/speech_score.h"
 
 namespace semblante {
 namespace {
@@ -206,6 +207,9 @@ Result<Message> decode_json(std::string_view text, const QuantizerSteps& steps) 
   if (report) return *report;
   if (const auto* sound = std::get_if<SoundPacket>(&message)) {
     if (auto status = check_sound(*sound); !status) return std::move(status).error();
+  }
+  if (const auto* said = std::get_if<SpeechText>(&message)) {
+    if (auto status = check_text(*said); !status) return std::move(status).error();
   }
   return message;
 }

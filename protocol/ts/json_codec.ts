@@ -11,6 +11,7 @@ import {
 import { isAppended, limits, messages, type Field, type Message } from './generated/messages.ts';
 import { opusPacketMs } from './opus_packet.ts';
 import { parseJsonObject, type JsonCursor } from './json_cursor.ts';
+import { isScoreOf } from './speech_score.ts';
 import { quantize, standardQuantizers, type QuantizerSteps } from './quantizers.ts';
 
 type Values = Record<string, unknown>;
@@ -67,6 +68,9 @@ export function decodeJson(text: string, steps: QuantizerSteps = standardQuantiz
   for (const field of description.fields) values[field.name] = readField(root, field, steps);
   if (name === 'sound' && opusPacketMs(values.packet as Uint8Array) === null) {
     root.member('packet').fail('malformed', 'is no Opus packet');
+  }
+  if (name === 'text' && !isScoreOf(values.score as Uint8Array, values.text as string)) {
+    root.member('score').fail('malformed', 'is no score of the text');
   }
   return values as unknown as Message;
 }

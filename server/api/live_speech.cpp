@@ -1,5 +1,7 @@
 #include "server/api/live_speech.h"
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <system_error>
 #include <utility>
@@ -23,22 +25,25 @@ Status LiveSpeech::add_sound(streams::GrowingSource& source, voice::SoundCoder& 
   return source.add_sound(std::move(packets));
 }
 
-Status LiveSpeech::add_part(streams::GrowingSource& source, voice::SoundCoder& coder, const voice::SpeechPart& part) {
+Status LiveSpeech::add_part(streams::GrowingSource& source, voice::SoundCoder& coder, voice::SpeechPart part) {
   const double end = coder.end();
   if (const auto added = coder.add(part.sound.samples, part.sound.sample_rate); !added) return added.error();
   const auto begin = source.add_part(part.face, part.lead, coder.end() - end);
   if (!begin) return begin.error();
   coder.pause(*begin - end);
-  return Unit{};
+  for (auto& text : part.texts)
+    text.media_time = static_cast<std::uint64_t>(
+        std::max(0.0, std::round(static_cast<double>(text.media_time) + *begin - part.lead)));
+  return source.add_texts(std::move(part.texts));
 }
 
 Result<LiveSpeech> LiveSpeech::of_text(voice::SpeechParts parts, const QuantizerSteps& steps) {
   auto coder = voice::SoundCoder::make();
   if (!coder) return coder.error();
   LiveSpeech speech(steps, *std::move(coder));
-  const auto first = parts.next();
+  auto first = parts.next();
   if (!first) return first.error();
-  if (const auto added = add_part(*speech.source_, speech.coder_, *first); !added) return added.error();
+  if (const auto added = add_part(*speech.source_, speech.coder_, *std::move(first)); !added) return added.error();
   if (const auto added = add_sound(*speech.source_, speech.coder_); !added) return added.error();
   if (!parts.done()) speech.parts_ = std::move(parts);
   if (speech.done()) speech.source_->finish();
@@ -46,13 +51,14 @@ Result<LiveSpeech> LiveSpeech::of_text(voice::SpeechParts parts, const Quantizer
 }
 
 Result<LiveSpeech> LiveSpeech::of_speech(const PerformanceScript& face, const Recording& sound,
-                                         const QuantizerSteps& steps) {
+                                         std::vector<SpeechText> texts, const QuantizerSteps& steps) {
   auto coder = voice::SoundCoder::make();
   if (!coder) return coder.error();
   LiveSpeech speech(steps, *std::move(coder));
   const auto compiled = Performance::compile(face);
   if (!compiled) return compiled.error();
   if (const auto added = speech.source_->add_part(face, 0.0, compiled->duration()); !added) return added.error();
+  if (const auto added = speech.source_->add_texts(std::move(texts)); !added) return added.error();
   if (!sound.samples.empty()) {
     if (const auto added = speech.coder_.add(sound.samples, sound.sample_rate); !added) return added.error();
     if (const auto added = add_sound(*speech.source_, speech.coder_); !added) return added.error();
@@ -97,7 +103,7 @@ Status LiveSpeech::make_all(const std::weak_ptr<streams::GrowingSource>& played,
     if (!wanted()) break;
     if (!part) return Error{part.error().code, "", "the voice: " + part.error().message};
     if (parts_->done()) parts_.reset();
-    if (const auto source = played.lock()) made = add_part(*source, coder_, *part);
+    if (const auto source = played.lock()) made = add_part(*source, coder_, *std::move(part));
     code();
   }
   if (const auto source = played.lock(); made && source) source->finish();

@@ -2,10 +2,12 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "core/performance/cue.h"
 #include "core/speech/wav.h"
 #include "core/types/result.h"
+#include "protocol/cpp/messages.h"
 #include "protocol/cpp/quantizers.h"
 #include "server/api/speakers.h"
 #include "server/streams/growing_source.h"
@@ -21,8 +23,9 @@ class LiveSpeech {
   /// The first part of a text is made: blocks as voice::speak(). Errors: those of voice::SpeechParts.
   static Result<LiveSpeech> of_text(voice::SpeechParts parts, const QuantizerSteps& steps);
   /// `sound`: empty if there is none. Errors: those of Performance::compile(); `internal`.
+  /// `texts`: its sentences (voice::speech_texts()).
   static Result<LiveSpeech> of_speech(const PerformanceScript& face, const Recording& sound,
-                                      const QuantizerSteps& steps);
+                                      std::vector<SpeechText> texts, const QuantizerSteps& steps);
 
   [[nodiscard]] const std::shared_ptr<streams::GrowingSource>& source() const { return source_; }
   [[nodiscard]] bool done() const { return !parts_ && coder_.done(); }
@@ -34,7 +37,7 @@ class LiveSpeech {
       : source_(std::make_shared<streams::GrowingSource>(steps)), coder_(std::move(coder)) {}
 
   Status make_all(const std::weak_ptr<streams::GrowingSource>& played, Speakers& speakers);
-  static Status add_part(streams::GrowingSource& source, voice::SoundCoder& coder, const voice::SpeechPart& part);
+  static Status add_part(streams::GrowingSource& source, voice::SoundCoder& coder, voice::SpeechPart part);
   static Status add_sound(streams::GrowingSource& source, voice::SoundCoder& coder);
 
   std::shared_ptr<streams::GrowingSource> source_;

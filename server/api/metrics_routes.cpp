@@ -86,6 +86,14 @@ void write_streams(TextWriter& writer, const streams::StreamHub& hub) {
                 "Bytes of these, WebSocket headers included.", counts.sound_bytes_sent);
   writer.single("semblante_stream_sound_messages_dropped_total", MetricType::counter,
                 "Packets of sound not sent to listeners who read too slowly.", counts.sound_dropped);
+  writer.single("semblante_stream_texts_sent_total", MetricType::counter,
+                "Sentences sent to clients with a voice of their own.", counts.texts_sent);
+  writer.single("semblante_stream_texts_sent_bytes_total", MetricType::counter,
+                "Bytes of these, WebSocket headers included.", counts.text_bytes_sent);
+  writer.single("semblante_stream_words_reached_total", MetricType::counter,
+                "Words that the voices of such clients have told to begin.", counts.words_reached);
+  writer.single("semblante_stream_voices_failed_total", MetricType::counter,
+                "Clients whose own voice did not speak, and that got frames then.", counts.voices_failed);
   writer.single("semblante_stream_messages_dropped_total", MetricType::counter,
                 "Messages pending for connections closed as slow, and answers dropped at the limit.",
                 counts.messages_dropped);

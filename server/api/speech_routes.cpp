@@ -14,6 +14,7 @@
 #include "core/speech/marked_text.h"
 #include "core/speech/sounds.h"
 #include "core/speech/speech.h"
+#include "core/speech/voice_timeline.h"
 #include "core/speech/wav.h"
 #include "protocol/cpp/performance_document.h"
 #include "protocol/hash/sha256.h"
@@ -30,6 +31,7 @@
 #include "server/http/media_type.h"
 #include "server/http/multipart.h"
 #include "server/voice/speech_maker.h"
+#include "server/voice/speech_texts.h"
 
 namespace semblante::api {
 namespace {
@@ -185,6 +187,22 @@ auto take_speaker(Context& context) {
   if (!place)
     refuse_for_now("as many streams are speaking as the server lets speak at the same time", retry_after_voices);
   return place;
+}
+
+/// The sentences of a stored speech, from its timeline; none if nothing is known of its words.
+std::vector<SpeechText> texts_of(Context& context, const SpeechRecord& record, const PerformanceScript& script) {
+  const MappedFile file(context.blobs.whole(file_of(record, timeline).sha256));
+  const auto read = read_voice_timeline(file.text(), TimelineFormat::semblante);
+  if (!read) refuse("internal", "the timeline cannot be read: " + read.error().message);
+  auto said = utterance_of(*read, record.text, {});
+  if (!said) return {};
+  voice::Speech speech;
+  speech.text = record.text;
+  speech.utterance = *std::move(said);
+  speech.performance = script;
+  const auto request = read_json(record.request);
+  if (request) speech.sounds = request->value("language", "");
+  return voice::speech_texts(speech);
 }
 
 /// Plays what has been made of a speech, and has the rest made.
@@ -380,7 +398,7 @@ http::Response speak_into_stream(Context& context, http::Request& request) {
     if (!recording) refuse("internal", "the sound cannot be read: " + recording.error().message);
     sound = *std::move(recording);
   }
-  auto live = LiveSpeech::of_speech(*script, sound, steps);
+  auto live = LiveSpeech::of_speech(*script, sound, texts_of(context, *speech, *script), steps);
   if (!live) refuse("internal", "the speech cannot be played: " + live.error().message);
   return play(context, request, *std::move(live), std::move(place), take_over);
 }

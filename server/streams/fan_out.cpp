@@ -1,6 +1,7 @@
 #include "server/streams/fan_out.h"
 
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -26,9 +27,10 @@ void Slice::send(http::GroupSender& sender, metrics::LatenessHistogram& lateness
     std::uint64_t handed = 0;
     for (const auto& delivery : group) {
       if (delivery.sent == http::Sent::handed) ++handed;
-      if (delivery.sent == http::Sent::refused && !is_sound_) replaced_ += delivery.sink->drop_state() + 1;
+      if (delivery.sent == http::Sent::refused && content_ != Content::sound)
+        replaced_ += delivery.sink->drop_state() + 1;
     }
-    if (!is_sound_) part.observe(std::chrono::duration<double>(Clock::now() - due_).count(), handed);
+    if (content_ == Content::batch) part.observe(std::chrono::duration<double>(Clock::now() - due_).count(), handed);
   }
   lateness.add(part);
 }
@@ -44,7 +46,7 @@ void FanOut::count_sent(const http::WireMessage& message) {
   counts_.bytes_sent += message.bytes.size();
 }
 
-void FanOut::add(StreamPeer& client, http::WebSocketSink& sink, Coding coding, bool listens,
+void FanOut::add(StreamPeer& client, http::WebSocketSink& sink, Coding coding, Wishes wishes,
                  const http::WireMessage& begin, bool waits, const BatchLog& log) {
   Subscriber subscriber;
   subscriber.client = &client;
@@ -52,10 +54,14 @@ void FanOut::add(StreamPeer& client, http::WebSocketSink& sink, Coding coding, b
   subscriber.slot = &client.notes().subscriber;
   subscriber.next_batch = log.batches() + 1;
   subscriber.coding = coding;
-  subscriber.listens = listens;
+  subscriber.listens = wishes.sound;
+  subscriber.reads = wishes.text;
+  subscriber.away = wishes.text && is_text_;
   subscriber.waits = waits;
-  if (listens) ++listeners_;
+  if (wishes.sound) ++listeners_;
+  if (wishes.text) ++readers_;
   count_sent(begin);
+  if (wishes.text) send_texts(subscriber, Clock::now());
   subscribers_.add(subscriber);
 }
 
@@ -69,13 +75,14 @@ void FanOut::remove_all() {
 
 void FanOut::drop(std::size_t slot) {
   if (subscribers_[slot].listens) --listeners_;
+  if (subscribers_[slot].reads) --readers_;
   subscribers_.remove(slot);
 }
 
 void FanOut::push(std::shared_ptr<Batch> batch) {
   if (subscribers_.size() == 0) return;
   const auto due = batch->due;
-  passes_.push_back({std::move(batch), {}, {}, due});
+  passes_.push_back({Kind::batch, std::move(batch), {}, {}, due, is_text_});
 }
 
 void FanOut::push_sound(SoundPacket sound, Clock::time_point due) {
@@ -83,31 +90,103 @@ void FanOut::push_sound(SoundPacket sound, Clock::time_point due) {
   if (passes_.size() >= most_passes / 2)
     counts_.sound_dropped += listeners_;
   else
-    passes_.push_back({nullptr, std::move(sound), {}, due});
+    passes_.push_back({Kind::sound, nullptr, std::move(sound), {}, due, is_text_});
 }
 
-const http::SharedWire& FanOut::sound_wire(Pass& pass, Coding coding) {
-  auto& wire = pass.sound_wires[static_cast<std::size_t>(coding)];
+void FanOut::push_text(SpeechText text, Clock::time_point due, Clock::time_point until) {
+  is_text_ = true;
+  std::erase_if(said_, [now = Clock::now()](const Said& one) { return one.until < now; });
+  said_.push_back({text, until});
+  if (readers_ > 0) passes_.push_back({Kind::text, nullptr, std::move(text), {}, due, true});
+}
+
+void FanOut::end_text(std::optional<SpeechText> hush, Clock::time_point now) {
+  is_text_ = false;
+  said_.clear();
+  if (readers_ == 0) return;
+  if (hush) passes_.push_back({Kind::text, nullptr, *std::move(hush), {}, now, true});
+  passes_.push_back({Kind::newest, nullptr, {}, {}, now, false});
+}
+
+bool FanOut::says(Clock::time_point now) const {
+  return std::any_of(said_.begin(), said_.end(), [now](const Said& one) { return one.until > now; });
+}
+
+bool FanOut::reads(StreamPeer& client) const {
+  const auto slot = client.notes().subscriber;
+  return slot != Subscriber::nowhere && subscribers_.all()[slot].reads;
+}
+
+void FanOut::set_reads(StreamPeer& client, bool reads, BatchLog& log) {
+  const auto slot = client.notes().subscriber;
+  if (slot == Subscriber::nowhere || subscribers_[slot].reads == reads) return;
+  auto& subscriber = subscribers_[slot];
+  subscriber.reads = reads;
+  readers_ = reads ? readers_ + 1 : readers_ - 1;
+  if (reads) {
+    subscriber.away = is_text_;
+    send_texts(subscriber, Clock::now());
+  } else if (subscriber.away) {
+    subscriber.away = false;
+    subscriber.behind = true;
+    send_newest(subscriber, log);
+  }
+}
+
+void FanOut::send_texts(Subscriber& subscriber, Clock::time_point now) {
+  for (const auto& [text, until] : said_) {
+    if (until < now) continue;
+    http::WireMessage message;
+    append_encoded(message.bytes, Message(text), subscriber.coding == Coding::packed, standard_quantizers());
+    const auto bytes = message.bytes.size();
+    const auto sent =
+        subscriber.sink->send(std::make_shared<const http::WireMessage>(std::move(message)), http::Purpose::state);
+    if (sent != http::Sent::handed) subscriber.waits = true;
+    if (sent != http::Sent::handed && sent != http::Sent::waits) return;
+    ++counts_.texts_sent;
+    counts_.text_bytes_sent += bytes;
+  }
+}
+
+const http::SharedWire& FanOut::message_wire(Pass& pass, Coding coding) {
+  auto& wire = pass.wires[static_cast<std::size_t>(coding)];
   if (wire) return wire;
   http::WireMessage message;
-  append_encoded(message.bytes, Message(pass.sound), coding == Coding::packed, standard_quantizers());
+  append_encoded(message.bytes, pass.message, coding == Coding::packed, standard_quantizers());
   return wire = std::make_shared<const http::WireMessage>(std::move(message));
 }
 
 const http::SharedWire* FanOut::next_wire(Slice& slice, Subscriber& subscriber, BatchLog& log) {
   auto& pass = passes_.front();
   auto& wire = slice.wires_[static_cast<std::size_t>(subscriber.coding)];
-  if (!pass.batch) {
-    if (!subscriber.listens) return nullptr;
+  if (pass.kind == Kind::newest) {
+    if (!subscriber.away) return nullptr;
+    subscriber.away = false;
+    subscriber.behind = true;
+    send_newest(subscriber, log);
+    return nullptr;
+  }
+  if (pass.kind == Kind::text) {
+    if (!subscriber.reads || subscriber.behind) return nullptr;  // with the newest state come the texts
+    if (!wire) wire = message_wire(pass, subscriber.coding);
+    return &wire;
+  }
+  const bool reads = subscriber.reads && pass.of_text;
+  if (pass.kind == Kind::sound) {
+    if (!subscriber.listens || reads) return nullptr;
     if (subscriber.behind || subscriber.waits) {
       ++counts_.sound_dropped;
       return nullptr;
     }
-    if (!wire) wire = sound_wire(pass, subscriber.coding);
+    if (!wire) wire = message_wire(pass, subscriber.coding);
     return &wire;
   }
   if (subscriber.next_batch > pass.batch->number) return nullptr;
   subscriber.next_batch = pass.batch->number + 1;
+  if (reads) {
+    subscriber.away = true;
+    return nullptr;
+  }
   if (subscriber.behind) {
     ++counts_.messages_replaced;
     return nullptr;
@@ -122,7 +201,10 @@ bool FanOut::next_slice(Slice& slice, BatchLog& log) {
   slice.deliveries_.clear();
   slice.wires_ = {};
   slice.due_ = passes_.front().due;
-  slice.is_sound_ = passes_.front().batch == nullptr;
+  const auto kind = passes_.front().kind;
+  slice.content_ = kind == Kind::sound  ? Slice::Content::sound
+                   : kind == Kind::text ? Slice::Content::text
+                                        : Slice::Content::batch;
   slice.replaced_ = 0;
   for (auto& subscriber : subscribers_.next(slice_size)) {
     const auto* wire = next_wire(slice, subscriber, log);
@@ -141,9 +223,12 @@ void FanOut::finish_slice(Slice& slice, BatchLog& log) {
     if (sent == http::Sent::closed) continue;
     if (sent != http::Sent::refused) {
       const auto& wire = *slice.wires_[static_cast<std::size_t>(target.coding)];
-      if (slice.is_sound_) {
+      if (slice.content_ == Slice::Content::sound) {
         ++counts_.sound_sent;
         counts_.sound_bytes_sent += wire.bytes.size();
+      } else if (slice.content_ == Slice::Content::text) {
+        ++counts_.texts_sent;
+        counts_.text_bytes_sent += wire.bytes.size();
       } else {
         count_sent(wire);
       }
@@ -154,7 +239,7 @@ void FanOut::finish_slice(Slice& slice, BatchLog& log) {
     auto& subscriber = subscribers_[slot];
     subscriber.waits = true;
     if (sent != http::Sent::refused) continue;
-    if (slice.is_sound_) {
+    if (slice.content_ == Slice::Content::sound) {
       ++counts_.sound_dropped;
       continue;
     }
@@ -172,7 +257,7 @@ void FanOut::send_rest(BatchLog& log) {
   for (auto& subscriber : subscribers_.all()) {
     for (const auto& pass : passes_) {
       const auto& batch = pass.batch;
-      if (!batch) continue;
+      if (!batch || (subscriber.reads && pass.of_text)) continue;
       if (subscriber.behind) break;
       if (subscriber.next_batch > batch->number) continue;
       const auto& wire = log.wire(*batch, subscriber.coding);
@@ -202,6 +287,7 @@ void FanOut::send_newest(Subscriber& subscriber, BatchLog& log) {
   subscriber.behind = false;
   subscriber.next_batch = log.batches() + 1;
   count_sent(*newest);
+  if (subscriber.reads) send_texts(subscriber, Clock::now());
 }
 
 std::vector<StreamPeer*> FanOut::remove_stalled(std::chrono::milliseconds patience, Clock::time_point now) {

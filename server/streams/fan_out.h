@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <deque>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "server/http/group_sender.h"
@@ -33,14 +34,14 @@ class Slice {
   std::vector<http::Delivery> deliveries_;  ///< of each target, in their order
   std::array<http::SharedWire, coding_count> wires_;
   std::chrono::steady_clock::time_point due_;
-  bool is_sound_ = false;
+  enum class Content : std::uint8_t { batch, sound, text } content_ = Content::batch;
   std::size_t replaced_ = 0;  ///< pending messages dropped for targets that fell behind
 };
 
 /// Sends batches to the subscribers of a stream, one slice after another. A subscriber that reads too slowly *falls
 /// behind*: its pending messages are dropped, and it gets no batch until its socket is writable again; then it gets the
-/// newest state. Sound goes only to subscribers for whom nothing waits, so that it never takes the place of frames. Not
-/// synchronized, but see Slice.
+/// newest state. Sound goes only to subscribers for whom nothing waits, so that it never takes the place of frames.
+/// *Readers* get the sentences of speech in place of its frames and sound. Not synchronized, but see Slice.
 class FanOut {
  public:
   using Clock = std::chrono::steady_clock;
@@ -51,9 +52,14 @@ class FanOut {
   [[nodiscard]] std::size_t size() const { return subscribers_.size(); }
   [[nodiscard]] std::array<std::size_t, coding_count> by_coding() const;
 
-  /// Adds a subscriber whose `begin` has been sent; the log's next batch is its first. `listens`: it gets the sound.
-  /// `waits`: part of `begin` is still in the outbox.
-  void add(StreamPeer& client, http::WebSocketSink& sink, Coding coding, bool listens, const http::WireMessage& begin,
+  /// What a subscriber has asked for.
+  struct Wishes {
+    bool sound = false;
+    bool text = false;
+  };
+  /// Adds a subscriber whose `begin` has been sent; the log's next batch is its first. `waits`: part of `begin` is
+  /// still in the outbox.
+  void add(StreamPeer& client, http::WebSocketSink& sink, Coding coding, Wishes wishes, const http::WireMessage& begin,
            bool waits, const BatchLog& log);
   void remove(StreamPeer& client);
   void remove_all();
@@ -62,6 +68,17 @@ class FanOut {
   void push(std::shared_ptr<Batch> batch);
   /// Queues a packet of sound for all current listeners; drops it when sending is slow.
   void push_sound(SoundPacket sound, Clock::time_point due);
+  /// Queues a sentence for all current readers and keeps it until `until` for those who come meanwhile. From now on
+  /// readers get neither frames nor sound, until end_text().
+  void push_text(SpeechText text, Clock::time_point due, Clock::time_point until);
+  /// The speech is over: readers get the newest state. Those whose voice may still speak are told to `hush`.
+  void end_text(std::optional<SpeechText> hush, Clock::time_point now);
+  [[nodiscard]] bool is_text() const { return is_text_; }
+  /// A sentence is still being said at `now`, as far as was estimated.
+  [[nodiscard]] bool says(Clock::time_point now) const;
+  /// A subscriber becomes a reader, or one that is none gets frames again.
+  void set_reads(StreamPeer& client, bool reads, BatchLog& log);
+  [[nodiscard]] bool reads(StreamPeer& client) const;
   [[nodiscard]] bool is_idle() const { return passes_.empty(); }
   /// False while the queue of batches is full; frames should gather longer then.
   [[nodiscard]] bool has_room() const { return passes_.size() < most_passes; }
@@ -82,14 +99,23 @@ class FanOut {
   /// When sending is slower than frames arrive, they gather into longer batches instead of a longer queue.
   static constexpr std::size_t most_passes = 4;
 
-  /// What is sent to all subscribers: a batch, or a packet of sound.
+  enum class Kind : std::uint8_t { batch, sound, text, newest };
+  /// What is sent to all subscribers. `newest`: the newest state, to readers who have missed frames.
   struct Pass {
-    std::shared_ptr<Batch> batch;  ///< null: sound
-    SoundPacket sound;
-    std::array<http::SharedWire, coding_count> sound_wires;
+    Kind kind = Kind::batch;
+    std::shared_ptr<Batch> batch;  ///< null unless it is one
+    Message message;               ///< sound or text
+    std::array<http::SharedWire, coding_count> wires;
     Clock::time_point due;
+    bool of_text = false;  ///< frames or sound of a speech whose text readers get
   };
-  static const http::SharedWire& sound_wire(Pass& pass, Coding coding);
+  static const http::SharedWire& message_wire(Pass& pass, Coding coding);
+  /// A sentence that is being said.
+  struct Said {
+    SpeechText text;
+    Clock::time_point until;
+  };
+  void send_texts(Subscriber& subscriber, Clock::time_point now);
 
   void count_sent(const http::WireMessage& message);
   void drop(std::size_t slot);
@@ -100,7 +126,10 @@ class FanOut {
   StreamCounts& counts_;
   SubscriberList subscribers_;
   std::size_t listeners_ = 0;  ///< subscribers that get the sound
-  std::deque<Pass> passes_;    ///< queue; the first is being sent
+  std::size_t readers_ = 0;
+  bool is_text_ = false;     ///< what enters the stream is a speech whose text readers get
+  std::vector<Said> said_;   ///< at most a few: whoever adds one drops those that have ended
+  std::deque<Pass> passes_;  ///< queue; the first is being sent
 };
 
 }  // namespace semblante::streams

@@ -37,6 +37,16 @@ struct Making {
   std::string failure = {};  ///< for people: why it ends early; empty: it does not
 };
 
+/// Iterates over the sentences of a source that speaks, in order of time. One thread.
+class TextCursor {
+ public:
+  virtual ~TextCursor() = default;
+  /// The current sentence, with its time in ms after the beginning of the source; null after the last one. Valid until
+  /// advance().
+  [[nodiscard]] virtual const SpeechText* text() const = 0;
+  virtual void advance() = 0;
+};
+
 /// A source that has a face for every time and can be played into a stream: a performance, a .fap file, a recording.
 /// Any thread may use it. A new kind of source implements this interface and is passed to StreamHub::play.
 class FrameSource {
@@ -57,6 +67,8 @@ class FrameSource {
   [[nodiscard]] virtual std::unique_ptr<FrameCursor> frames_from(double /*ms*/) const { return nullptr; }
   /// Its sound from the first packet at or after `ms` on; null: it has none. It is heard once, also of a loop.
   [[nodiscard]] virtual std::unique_ptr<SoundCursor> sound_from(double /*ms*/) const { return nullptr; }
+  /// Its sentences from the first one at or after `ms` on; null: it has none. They are said once, also of a loop.
+  [[nodiscard]] virtual std::unique_ptr<TextCursor> texts_from(double /*ms*/) const { return nullptr; }
   /// Approximate memory use.
   [[nodiscard]] virtual std::size_t bytes() const = 0;
 };

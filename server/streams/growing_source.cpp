@@ -11,14 +11,36 @@ namespace {
 /// From a part's place to its first packet: coding takes 10 ms, and the player looks 25 times a second.
 constexpr double ahead_ms = 120.0;
 
+/// The first message at or after `ms`.
+template <class Message>
+std::size_t first_at(const std::deque<Message>& messages, double ms) {
+  const auto first = std::find_if(messages.begin(), messages.end(),
+                                  [ms](const Message& one) { return static_cast<double>(one.media_time) >= ms; });
+  return static_cast<std::size_t>(first - messages.begin());
+}
+
 }  // namespace
 
-class GrowingSource::Cursor : public SoundCursor {
+class GrowingSource::Sound : public SoundCursor {
  public:
-  Cursor(const GrowingSource& source, std::size_t next) : source_(source), next_(next) {}
+  Sound(const GrowingSource& source, std::size_t next) : source_(source), next_(next) {}
   [[nodiscard]] const SoundPacket* packet() const override {
     const std::lock_guard lock(source_.mutex_);
     return next_ < source_.sound_.size() ? &source_.sound_[next_] : nullptr;
+  }
+  void advance() override { ++next_; }
+
+ private:
+  const GrowingSource& source_;
+  std::size_t next_;
+};
+
+class GrowingSource::Texts : public TextCursor {
+ public:
+  Texts(const GrowingSource& source, std::size_t next) : source_(source), next_(next) {}
+  [[nodiscard]] const SpeechText* text() const override {
+    const std::lock_guard lock(source_.mutex_);
+    return next_ < source_.texts_.size() ? &source_.texts_[next_] : nullptr;
   }
   void advance() override { ++next_; }
 
@@ -39,6 +61,16 @@ Status GrowingSource::add_sound(std::vector<SoundPacket> packets) {
   for (auto& packet : packets) {
     sound_bytes_ += sizeof(packet) + packet.packet.capacity();
     sound_.push_back(std::move(packet));
+  }
+  if (bytes_now() > most_bytes) return Error{ErrorCode::too_large, "", "takes too much memory"};
+  return Unit{};
+}
+
+Status GrowingSource::add_texts(std::vector<SpeechText> texts) {
+  const std::lock_guard lock(mutex_);
+  for (auto& text : texts) {
+    text_bytes_ += sizeof(text) + text.text.capacity() + text.score.capacity();
+    texts_.push_back(std::move(text));
   }
   if (bytes_now() > most_bytes) return Error{ErrorCode::too_large, "", "takes too much memory"};
   return Unit{};
@@ -72,9 +104,12 @@ FaceFrame GrowingSource::frame_at(double ms, double played_ms) const {
 
 std::unique_ptr<SoundCursor> GrowingSource::sound_from(double ms) const {
   const std::lock_guard lock(mutex_);
-  const auto first = std::find_if(sound_.begin(), sound_.end(),
-                                  [ms](const SoundPacket& one) { return static_cast<double>(one.media_time) >= ms; });
-  return std::make_unique<Cursor>(*this, static_cast<std::size_t>(first - sound_.begin()));
+  return std::make_unique<Sound>(*this, first_at(sound_, ms));
+}
+
+std::unique_ptr<TextCursor> GrowingSource::texts_from(double ms) const {
+  const std::lock_guard lock(mutex_);
+  return std::make_unique<Texts>(*this, first_at(texts_, ms));
 }
 
 std::size_t GrowingSource::bytes() const {

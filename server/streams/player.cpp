@@ -28,6 +28,7 @@ Player::Player(std::string id, std::shared_ptr<Stream> stream, std::uint64_t tic
       next_(begin),
       frames_(source_->frames_from(options.from)),
       sound_(source_->sound_from(options.from)),
+      texts_(source_->texts_from(options.from)),
       rounds_ms_(-options.from) {}
 
 double Player::end() const {
@@ -42,6 +43,7 @@ Player::Clock::time_point Player::time_of(double played_ms) const {
 
 void Player::play(Clock::time_point now) {
   if (finished_) return;
+  play_texts(now);  // first: who reads them gets no frames of the speech
   play_sound(now);
   if (now < next_) return;
   if (frames_)
@@ -61,6 +63,20 @@ void Player::play_sound(Clock::time_point now) {
   for (auto when = next_sound_time(); when <= now; when = next_sound_time()) {
     if (now - when <= latest_sound) stream_->publish_sound(ticket_, when, sound_->packet()->packet);
     sound_->advance();
+  }
+}
+
+Player::Clock::time_point Player::next_text_time() const {
+  const auto* text = finished_ || !texts_ ? nullptr : texts_->text();
+  if (text == nullptr) return Clock::time_point::max();
+  return std::max(begin_, time_of(static_cast<double>(text->media_time) - options_.from) - text_lead);
+}
+
+void Player::play_texts(Clock::time_point now) {
+  while (next_text_time() <= now) {
+    const auto& text = *texts_->text();
+    stream_->publish_text(ticket_, time_of(static_cast<double>(text.media_time) - options_.from), text);
+    texts_->advance();
   }
 }
 

@@ -33,17 +33,20 @@ class Player {
   Player(std::string id, std::shared_ptr<Stream> stream, std::uint64_t ticket,
          std::shared_ptr<const FrameSource> source, PlayOptions options, Clock::time_point begin);
 
-  /// When the next frame or sound is due; Clock::time_point::max() when there is none.
-  [[nodiscard]] Clock::time_point next() const { return std::min(next_, next_sound_time()); }
+  /// When the next frame, sound or text is due; Clock::time_point::max() when there is none.
+  [[nodiscard]] Clock::time_point next() const { return std::min({next_, next_sound_time(), next_text_time()}); }
   [[nodiscard]] bool finished() const { return finished_; }
   /// Memory use of its source. Any thread.
   [[nodiscard]] std::size_t source_bytes() const { return source_->bytes(); }
   [[nodiscard]] const std::string& id() const { return id_; }
 
-  /// Sends the sound that is due, without packets that are more than 200 ms late, and the newest frame that is due; of
-  /// a source with its own times all that are due, at most `most_at_once`. Finished after the last frame, or when
-  /// another source has taken over the stream.
+  /// Sends the sentences that begin within `text_lead`, the sound that is due, without packets that are more than 200
+  /// ms late, and the newest frame that is due; of a source with its own times all that are due, at most
+  /// `most_at_once`. Finished after the last frame, or when another source has taken over the stream.
   void play(Clock::time_point now);
+
+  /// So long before its first word a sentence is sent: a voice of a client's own needs time to begin.
+  static constexpr std::chrono::milliseconds text_lead{1000};
 
   /// Ends the play early; the face returns to neutral.
   void stop();
@@ -60,6 +63,8 @@ class Player {
   void play_at_rate(Clock::time_point now);
   void play_frames(Clock::time_point now);
   void play_sound(Clock::time_point now);
+  void play_texts(Clock::time_point now);
+  [[nodiscard]] Clock::time_point next_text_time() const;
   [[nodiscard]] Clock::time_point next_sound_time() const;
   [[nodiscard]] Clock::time_point time_of(double played_ms) const;
   [[nodiscard]] double frame_ms() const { return 1000.0 / options_.rate; }
@@ -74,6 +79,7 @@ class Player {
   std::uint64_t frame_ = 0;
   std::unique_ptr<FrameCursor> frames_;  ///< null: played at a rate
   std::unique_ptr<SoundCursor> sound_;   ///< null: it has none
+  std::unique_ptr<TextCursor> texts_;    ///< null: it has none
   double rounds_ms_ = 0.0;               ///< length of the loop's earlier rounds, minus options_.from
   bool finished_ = false;
 };

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "protocol/cpp/fap_ranges.h"
+#include "protocol/cpp/speech_score.h"
 #include "server/streams/batch_listener.h"
 #include "server/streams/batch_sender.h"
 #include "server/streams/encoding.h"
@@ -168,6 +169,7 @@ Result<Stream::Ticket> Stream::claim(Source source, double rate, bool take_over,
     publisher_->close(Message(End{EndReason::replaced}), {1000, "another source took over"});
     ++counts_.closed_replaced;
   }
+  end_text();
   publisher_ = publisher;
   return claim->ticket;
 }
@@ -220,10 +222,56 @@ void Stream::publish_sound(Ticket ticket, Clock::time_point when, const std::vec
   want(next_work(Clock::now()));
 }
 
+void Stream::publish_text(Ticket ticket, Clock::time_point when, SpeechText text) {
+  const SendAfter after(*this);
+  const std::lock_guard lock(mutex_);
+  if (ended_ || !sources_.holds(ticket)) return;
+  text.speech = ++speeches_;
+  text.media_time = media_time_at(began_, when);
+  const auto score = read_score(text.score);
+  const auto until = when + std::chrono::milliseconds(score ? score->duration() : 0);
+  const auto now = Clock::now();
+  if (until < now) return;  // the player was late
+  fan_out_.push_text(std::move(text), now, until);
+  want(next_work(now));
+}
+
+void Stream::end_text() {
+  if (!fan_out_.is_text()) return;
+  const auto now = Clock::now();
+  std::optional<SpeechText> hush;
+  if (fan_out_.says(now)) hush = SpeechText{++speeches_, media_time_at(began_, now), "", "", {}};
+  fan_out_.end_text(std::move(hush), now);
+  want(next_work(now));
+}
+
+Status Stream::spoken(StreamPeer& client, const Spoken& spoken) {
+  const std::lock_guard lock(mutex_);
+  if (spoken.speech > speeches_) return Error{ErrorCode::out_of_range, "/speech", "no such text was sent"};
+  const bool reads = fan_out_.reads(client);
+  switch (spoken.state) {
+    case VoiceState::ready:
+      fan_out_.set_reads(client, true, log_);
+      return Unit{};
+    case VoiceState::failed:
+      if (reads) ++counts_.voices_failed;
+      fan_out_.set_reads(client, false, log_);
+      return Unit{};
+    case VoiceState::reached:
+      if (reads) ++counts_.words_reached;
+      break;
+    case VoiceState::ended:
+      break;
+  }
+  if (!reads) return Error{ErrorCode::invalid_argument, "", "this client gets frames: its voice is not ready"};
+  return Unit{};
+}
+
 void Stream::end_playing(Ticket ticket, bool neutral) {
   if (neutral) static_cast<void>(publish_playing(ticket, Clock::now(), TimedFrame{}).ok());
+  const SendAfter after(*this);
   const std::lock_guard lock(mutex_);
-  sources_.release(ticket, Clock::now());
+  if (sources_.release(ticket, Clock::now())) end_text();
 }
 
 Status Stream::fill(Clock::time_point when, const TimedFrame& frame) {
@@ -265,7 +313,9 @@ void Stream::subscribe(StreamPeer& client, http::WebSocketSink& sink, const Hell
   client.notes().said_hello = true;
   if (ended_) return;
   const auto coding = binary ? Coding::packed : Coding::json;
-  const auto begin = log_.begin(coding, hello.resume);
+  // Whoever gets the text of a speech needs none of its frames.
+  const bool reads_now = hello.text && fan_out_.is_text();
+  const auto begin = log_.begin(coding, reads_now ? std::nullopt : hello.resume);
   http::WireMessage header;
   append_encoded(header.bytes, Message(header_for(begin.recovered, hello.sound)), binary, steps_);
   const auto told = sink.send(std::make_shared<const http::WireMessage>(std::move(header)), http::Purpose::answer);
@@ -279,7 +329,7 @@ void Stream::subscribe(StreamPeer& client, http::WebSocketSink& sink, const Hell
     close_as_slow(client);
     return;
   }
-  fan_out_.add(client, sink, coding, hello.sound, *begin.wire, sent != http::Sent::handed, log_);
+  fan_out_.add(client, sink, coding, {hello.sound, hello.text}, *begin.wire, sent != http::Sent::handed, log_);
 }
 
 void Stream::writable(StreamPeer& client) {

@@ -58,6 +58,9 @@ class Stream : public StreamAccess, public std::enable_shared_from_this<Stream> 
   Status publish_playing(Ticket ticket, Clock::time_point when, const TimedFrame& frame);
   /// One packet of a player's sound, due at `when`. Dropped when the play has ended.
   void publish_sound(Ticket ticket, Clock::time_point when, const std::vector<std::uint8_t>& packet);
+  /// A sentence of this play for clients with a voice of their own; its first word begins at `when`. Until the play
+  /// ends they get neither frames nor sound of it.
+  void publish_text(Ticket ticket, Clock::time_point when, SpeechText text);
   /// Does nothing when another source holds the stream already. `neutral`: the face returns to neutral.
   void end_playing(Ticket ticket, bool neutral);
   /// A frame of the stream's own filling; dropped while another source feeds the stream or did so recently.
@@ -81,6 +84,7 @@ class Stream : public StreamAccess, public std::enable_shared_from_this<Stream> 
   void end_publishing(StreamPeer& client) override;
   void writable(StreamPeer& client) override;
   void leave(StreamPeer& client) override;
+  Status spoken(StreamPeer& client, const Spoken& spoken) override;
   void answer_dropped() override { ++answers_dropped_; }
 
   // ---- threads of the hub
@@ -103,6 +107,8 @@ class Stream : public StreamAccess, public std::enable_shared_from_this<Stream> 
   PublishReceipt take(Source source, std::uint64_t media_time, std::vector<TimedFrame> frames, Clock::time_point now);
   Result<Ticket> claim(Source source, double rate, bool take_over, StreamPeer* publisher);
   void release(StreamPeer& publisher);
+  /// The speech whose text was sent is over.
+  void end_text();
   [[nodiscard]] StreamCounts all_counts() const;
   [[nodiscard]] Header header_for(bool recovered, bool sound = false) const;
   [[nodiscard]] Clock::time_point next_work(Clock::time_point now) const;
@@ -125,6 +131,7 @@ class Stream : public StreamAccess, public std::enable_shared_from_this<Stream> 
   SourceArbiter sources_;
   BatchLog log_;
   FanOut fan_out_{counts_};
+  std::uint64_t speeches_ = 0;  ///< number of the newest text
   ClientList clients_;
   StreamPeer* publisher_ = nullptr;  ///< the connection that holds the stream, or null
   std::shared_ptr<BatchListener> listener_;

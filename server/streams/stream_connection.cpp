@@ -114,6 +114,8 @@ void StreamConnection::handle(Message message) {
           },
           [&](const Pong&) {}, [&](const StreamError&) {},
           [&](const SoundPacket&) { refuse(StreamErrorCode::invalid_argument, "", "only the server sends sound"); },
+          [&](const SpeechText&) { refuse(StreamErrorCode::invalid_argument, "", "only the server sends text"); },
+          [&](const Spoken& spoken) { handle_spoken(spoken); },
           [&](const Header&) { refuse(StreamErrorCode::invalid_argument, "", "only the server sends a header"); }},
       message);
 }
@@ -150,6 +152,14 @@ void StreamConnection::handle_hello(const Hello& hello) {
                               "another source holds this stream; `take_over` in the hello replaces it"}),
           {1008, "another source holds the stream"});
   }
+}
+
+void StreamConnection::handle_spoken(const Spoken& spoken) {
+  if (role_ != Role::subscribes) {
+    refuse(StreamErrorCode::invalid_argument, "", "this connection publishes: only a subscriber has a voice");
+    return;
+  }
+  if (const auto taken = stream_->spoken(*this, spoken); !taken) send(Message(to_stream_error(taken.error())));
 }
 
 void StreamConnection::handle_frames(std::uint64_t media_time, const std::vector<TimedFrame>& frames) {

@@ -50,6 +50,7 @@ class StreamConnection : public http::WebSocketPeer, public StreamPeer {
   Result<Message> read(std::string_view bytes, bool binary);
   void handle(Message message);
   void handle_hello(const Hello& hello);
+  void handle_spoken(const Spoken& spoken);
   void handle_frames(std::uint64_t media_time, const std::vector<TimedFrame>& frames);
 
   const std::shared_ptr<StreamAccess> stream_;

@@ -21,6 +21,10 @@ struct StreamCounts {
   std::uint64_t sound_sent = 0;         ///< messages, to each listener
   std::uint64_t sound_bytes_sent = 0;   ///< of these, WebSocket headers included
   std::uint64_t sound_dropped = 0;      ///< not sent to listeners who read too slowly
+  std::uint64_t texts_sent = 0;         ///< sentences, to each client with a voice of its own
+  std::uint64_t text_bytes_sent = 0;    ///< of these, WebSocket headers included
+  std::uint64_t words_reached = 0;      ///< boundaries that such clients have told
+  std::uint64_t voices_failed = 0;      ///< clients whose voice did not speak, which then got frames
   std::uint64_t closed_slow = 0;        ///< subscribers that read nothing
   std::uint64_t closed_silent = 0;      ///< connections that sent no hello
   std::uint64_t closed_replaced = 0;    ///< publishers replaced by another source
@@ -45,6 +49,10 @@ struct StreamCounts {
     sound_sent += other.sound_sent;
     sound_bytes_sent += other.sound_bytes_sent;
     sound_dropped += other.sound_dropped;
+    texts_sent += other.texts_sent;
+    text_bytes_sent += other.text_bytes_sent;
+    words_reached += other.words_reached;
+    voices_failed += other.voices_failed;
     closed_slow += other.closed_slow;
     closed_silent += other.closed_silent;
     closed_replaced += other.closed_replaced;

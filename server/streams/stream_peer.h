@@ -76,6 +76,9 @@ class StreamAccess {
   virtual void writable(StreamPeer& client) = 0;
   /// The socket is closed. No event follows.
   virtual void leave(StreamPeer& client) = 0;
+  /// What a subscriber's own voice does. Errors: `out_of_range`, a text that was never sent; `invalid_argument`, a
+  /// client that gets frames.
+  virtual Status spoken(StreamPeer& client, const Spoken& spoken) = 0;
   /// An answer was dropped because the client has not read many earlier ones.
   virtual void answer_dropped() = 0;
 };

@@ -25,6 +25,8 @@ struct Subscriber {
   std::uint64_t next_batch = 0;  ///< number of the first batch it has not been sent
   Coding coding = Coding::packed;
   bool listens = false;  ///< asked for the sound
+  bool reads = false;    ///< has a voice of its own: gets text in place of the frames and the sound of speech
+  bool away = false;     ///< has missed frames for the sake of text: needs the newest state before the next batch
   bool behind = false;   ///< needs the newest state before the next batch
   bool waits = false;    ///< its outbox may have messages
 };

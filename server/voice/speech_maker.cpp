@@ -11,6 +11,7 @@
 #include "core/speech/marked_text.h"
 #include "core/speech/sounds.h"
 #include "core/types/printable.h"
+#include "server/voice/speech_texts.h"
 
 namespace semblante::voice {
 namespace {
@@ -151,11 +152,16 @@ Result<SpeechPart> SpeechParts::next(const std::function<bool()>& wanted) {
   part.sound = with_silence(said->utterance, first_ ? speech_lead_ms : 0.0, done_ ? speech_tail_ms : 0.0);
   said_ms_ += part.sound.duration;
   if (said_ms_ > max_seconds * 1000.0)
-    return Error{ErrorCode::too_large, "voice", "speaks longer than " + std::to_string(std::lround(max_seconds)) + " s"};
+    return Error{ErrorCode::too_large, "voice",
+                 "speaks longer than " + std::to_string(std::lround(max_seconds)) + " s"};
   // The face has its time to get ready and to come to rest in the pauses between the parts.
-  const Utterance seen =
-      with_silence(std::move(said->utterance), first_ ? speech_lead_ms : part.lead, speech_tail_ms);
-  part.face = speech_performance(seen, said->marked.emotions, face_of(request_));
+  Speech seen;
+  seen.utterance = with_silence(std::move(said->utterance), first_ ? speech_lead_ms : part.lead, speech_tail_ms);
+  seen.performance = speech_performance(seen.utterance, said->marked.emotions, face_of(request_));
+  seen.text = std::move(said->marked.text);
+  seen.sounds = request_.voice.language;
+  part.texts = speech_texts(seen);
+  part.face = std::move(seen.performance);
   request_.voice.text = std::move(parts.rest);
   ++request_.face.seed;
   first_ = false;

@@ -13,6 +13,7 @@
 #include "core/speech/utterance.h"
 #include "core/speech/voice_timeline.h"
 #include "core/types/result.h"
+#include "protocol/cpp/messages.h"
 #include "server/voice/voice_process.h"
 #include "server/voice/voice_protocol.h"
 
@@ -42,14 +43,15 @@ Result<Speech> make_speech(const VoiceProgram& program, const SpeechRequest& req
 
 /// A part of a text, to be played after the parts before it.
 struct SpeechPart {
-  Utterance sound;         ///< its times begin with its first sample
-  PerformanceScript face;  ///< on a clock on which the sound begins at `lead`; it goes on after the sound
-  double lead = 0.0;       ///< ms
+  Utterance sound;                     ///< its times begin with its first sample
+  PerformanceScript face;              ///< on a clock on which the sound begins at `lead`; it goes on after the sound
+  double lead = 0.0;                   ///< ms
+  std::vector<SpeechText> texts = {};  ///< speech_texts() of it, on the clock of the face
 };
 
-/// A text in parts, sentence by sentence, so that the first can be heard while the others are made. Together their sound
-/// is that of the whole text; only the first begins with silence, and only the last ends with it. SSML is one part. One
-/// thread.
+/// A text in parts, sentence by sentence, so that the first can be heard while the others are made. Together their
+/// sound is that of the whole text; only the first begins with silence, and only the last ends with it. SSML is one
+/// part. One thread.
 class SpeechParts {
  public:
   /// Checks the request. Errors: those of check() and read_marked_text().

@@ -51,7 +51,7 @@ function gzipped(entry: string, seen = new Set<string>()): number {
 
 test('Package_HasModulesAndDeclarations_AndNoSources', () => {
   const names = files(unpacked);
-  for (const name of ['dist/index.js', 'dist/element.js', 'dist/three.js', 'dist/draco.js', 'dist/motion.js', 'dist/sound.js', 'dist/semblante_view.wasm', 'dist/semblante_motion.wasm', 'README.md', 'LICENSE'])
+  for (const name of ['dist/index.js', 'dist/element.js', 'dist/three.js', 'dist/draco.js', 'dist/motion.js', 'dist/sound.js', 'dist/speech.js', 'dist/semblante_view.wasm', 'dist/semblante_motion.wasm', 'README.md', 'LICENSE'])
     expect(names).toContain(name);
   expect(names.filter((name) => name.endsWith('.ts') && !name.endsWith('.d.ts'))).toEqual([]);
   for (const name of names.filter((one) => /\.(js|d\.ts)$/.test(one))) {

@@ -168,6 +168,24 @@ def opus_packet_ms(packet):
     return frames * ms if 0 < frames * ms <= 120 else None
 
 
+WORD = re.compile(r"[^ \t\r\n]+")
+
+
+def score_steps(score):
+    """(viseme, 1 where a word begins, ms) of each step, as section 2.2 has it; None: it is no score."""
+    steps, at = [], 0
+    while at < len(score):
+        high, low = divmod(score[at], 16)
+        at += 1
+        if high < 15:
+            steps.append((high, low // 8, (low % 8 + 1) * 30))
+        elif low > 6 or (low > 0 and (at == len(score) or score[at] > 63)):
+            return None
+        else:
+            at += low > 0
+    return steps
+
+
 class Reader:
     """Reads the messages of one connection in order. A message that is refused changes nothing."""
 
@@ -196,6 +214,10 @@ class Reader:
             self.steps = message["quantizers"] or STANDARD_STEPS
         if message["type"] == "sound" and not opus_packet_ms(message["packet"]):
             raise Refused("malformed", "/packet")
+        if message["type"] == "text":
+            steps = score_steps(message.get("score", b""))
+            if steps is None or sum(begins for _, begins, _ in steps) != len(WORD.findall(message.get("text", ""))):
+                raise Refused("malformed", "/score")
         return message
 
     def _packed(self, kind, source):

@@ -3,7 +3,7 @@
 import json
 import sys
 
-from stream_reader import PROTOCOL, STANDARD_STEPS, Reader, Refused, opus_packet_ms
+from stream_reader import PROTOCOL, STANDARD_STEPS, Reader, Refused, opus_packet_ms, score_steps
 
 FOLDER = PROTOCOL / "vectors/v1"
 failures = checks = 0
@@ -60,7 +60,14 @@ for message in sound["messages"]:
     if read["type"] == "sound":
         check(opus_packet_ms(read["packet"]) == message["lasts"], message["name"])
 
-for case in vectors("refused.json")["refused"] + sound["refused"]:
+spoken = vectors("text.json")
+reader, as_json = Reader(), Reader()
+for message in spoken["messages"]:
+    read = same(reader, as_json, message, message["name"])
+    if read["type"] == "text":
+        check(score_steps(read["score"]) == [tuple(step) for step in message["steps"]], message["name"])
+
+for case in vectors("refused.json")["refused"] + sound["refused"] + spoken["refused"]:
     reader = Reader()
     reader.binary(bytes.fromhex("090000e3"))
     if "binary" in case:

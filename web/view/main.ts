@@ -45,6 +45,8 @@ async function main(root: HTMLElement): Promise<void> {
   face.setAttribute('alt', `Animated face, stream ${stream}`);
   face.setAttribute('orbit', 'free');
   face.sound = true;
+  // "?voice": this device's own voice, for the thinnest wire.
+  face.voice = new URLSearchParams(location.search).has('voice');
   face.tabIndex = 0;
 
   const bars = document.createElement('span');

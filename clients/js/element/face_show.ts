@@ -11,6 +11,7 @@ import { fewerPixels, Pace, type Step } from '../view/pace.ts';
 import { loadRuntime } from '../wasm.ts';
 import { budgetOf, cheaperSteps, firstVertices, thisDevice, type Budget, type QualityName } from './detail.ts';
 import type { StreamSound } from '../sound/index.ts';
+import type { StreamSpeech } from '../speech/index.ts';
 import { Link } from './link.ts';
 import { faceOf, Images, modelOf, smallImages, trouble, type Source } from './loader.ts';
 import { FaceTrouble, isPassing } from './words.ts';
@@ -26,7 +27,7 @@ export interface ShowEvents {
   playing: void;
   level: { lod: number; vertices: number };
   trouble: FaceTrouble | null;
-  /** The stream has sound or not, or it is heard or not. */
+  /** The stream has sound or not, or it is heard or not; the same of the browser's own voice. */
   sound: void;
 }
 
@@ -39,6 +40,8 @@ export interface ShowOptions {
   paused: boolean;
   /** Whether the sound is asked for; it is heard after `setSound`. */
   sound: boolean;
+  /** Whether the browser's own voice may speak in place of the stream's sound, after `setVoice`. */
+  voice: boolean;
 }
 
 /** ms until the next attempt after a trouble that can pass; each attempt doubles it, up to the longest. */
@@ -55,11 +58,15 @@ export class FaceShow extends Emitter<ShowEvents> {
   readonly link: Link;
   face: Face | null = null;
   /** Follows the stream while the face is still loading. */
-  readonly player: Player = new Player(null, { clock: () => this.sound?.mediaTime ?? NaN });
+  readonly player: Player = new Player(null, {
+    clock: () => this.sound?.mediaTime ?? NaN,
+    overlay: (runtime, frame) => this.speech?.show(runtime, frame) ?? false,
+  });
   /** Pictures drawn in the last second in which the face moved. */
   framesPerSecond = 0;
 
   private sound: StreamSound | null = null;
+  private speech: StreamSpeech | null = null;
   private readonly renderer: FaceRenderer;
   private render: RenderQuality;
   private readonly budget: Budget;
@@ -142,6 +149,27 @@ export class FaceShow extends Emitter<ShowEvents> {
     this.emit('sound', undefined);
   }
 
+  /** Whether the browser has a voice, as far as is known: `setVoice` finds out. */
+  get hasVoice(): boolean {
+    return this.options.voice && typeof speechSynthesis === 'object' && this.speech?.state !== 'failed';
+  }
+
+  get isSpeaking(): boolean {
+    return this.speech?.state === 'ready';
+  }
+
+  /** To call by a tap. The text of the stream is said by the browser's own voice; where it has none, frames and sound stay. */
+  async setVoice(on: boolean): Promise<void> {
+    const { StreamSpeech } = await import('../speech/index.ts');
+    if (this.work.signal.aborted) return;
+    if (!this.speech) {
+      this.speech = new StreamSpeech(this.link.client, () => this.player.delay);
+      this.speech.on('state', () => this.emit('sound', undefined));
+    }
+    if (on) await this.speech.start();
+    else this.speech.stop();
+  }
+
   setFit(fit: Fit): void {
     if (this.face) this.camera.subject = frameOf(this.face.rig, fit);
     this.invalidate();
@@ -159,6 +187,7 @@ export class FaceShow extends Emitter<ShowEvents> {
     document.removeEventListener('visibilitychange', this.check);
     this.resized.disconnect();
     this.sound?.dispose();
+    this.speech?.dispose();
     this.link.close();
     this.player.dispose();
     this.kernel?.dispose();

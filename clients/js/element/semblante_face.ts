@@ -35,7 +35,7 @@ const Base = (globalThis as { HTMLElement?: typeof HTMLElement }).HTMLElement ??
  * events.
  */
 export class SemblanteFace extends Base {
-  static readonly observedAttributes = ['src', 'stream', 'model', 'fit', 'quality', 'poster', 'alt', 'sound'];
+  static readonly observedAttributes = ['src', 'stream', 'model', 'fit', 'quality', 'poster', 'alt', 'sound', 'voice'];
 
   private show: FaceShow | null = null;
   private failed: FaceTrouble | null = null;
@@ -66,7 +66,7 @@ export class SemblanteFace extends Base {
     this.soundButton.type = 'button';
     this.soundButton.className = 'sound';
     this.soundButton.hidden = true;
-    this.soundButton.addEventListener('click', () => void this.setSound(!this.isHeard).catch(() => this.update()));
+    this.soundButton.addEventListener('click', () => void this.press().catch(() => this.update()));
     root.append(this.picture, this.wheel, this.words, this.playButton, this.soundButton);
     this.addEventListener('keydown', (event) => this.turnByKey(event));
   }
@@ -131,6 +131,17 @@ export class SemblanteFace extends Base {
     this.toggleAttribute('sound', value);
   }
 
+  /**
+   * Whether the browser's own voice may say the text of the stream, in place of its sound: a thirtieth of the bytes. A button, or
+   * `setVoice`, lets it speak. Where the browser has no voice it is as without this attribute.
+   */
+  get voice(): boolean {
+    return this.hasAttribute('voice');
+  }
+  set voice(value: boolean) {
+    this.toggleAttribute('voice', value);
+  }
+
   /** A token, for a server of another origin that asks for one. Write only; not an attribute, which pages show. */
   set token(value: string | null) {
     this.secret = value;
@@ -180,6 +191,11 @@ export class SemblanteFace extends Base {
     return this.show?.isHeard ?? false;
   }
 
+  /** Whether the browser's own voice says the text of the stream. */
+  get isSpeaking(): boolean {
+    return this.show?.isSpeaking ?? false;
+  }
+
   // ---- methods ----------------------------------------------------------------------------------------------
 
   play(): void {
@@ -197,6 +213,16 @@ export class SemblanteFace extends Base {
   /** To call by a tap or a key. Rejects where the browser does not allow sound. */
   async setSound(on: boolean): Promise<void> {
     await this.show?.setSound(on);
+  }
+
+  /** To call by a tap or a key. */
+  async setVoice(on: boolean): Promise<void> {
+    await this.show?.setVoice(on);
+  }
+
+  private async press(): Promise<void> {
+    if (this.show?.hasVoice) await this.setVoice(!this.isSpeaking);
+    else await this.setSound(!this.isHeard);
   }
 
   /** Turns the camera back to the front. */
@@ -264,6 +290,7 @@ export class SemblanteFace extends Base {
         fades: !lessMotion(),
         paused: this.paused,
         sound: this.sound,
+        voice: this.voice,
       });
       this.show = show;
       show.on('state', (state) => {
@@ -328,6 +355,11 @@ export class SemblanteFace extends Base {
 
   private updateSound(): void {
     const { soundButton, show } = this;
+    if (show?.hasVoice && show.face && this.state !== 'error') {
+      soundButton.hidden = soundButton.disabled = false;
+      soundButton.textContent = this.isSpeaking ? 'Voice off' : 'Voice on';
+      return;
+    }
     soundButton.hidden = !this.sound || !(show?.hasSound ?? false) || this.state === 'error';
     const canHear = typeof AudioDecoder === 'function';
     soundButton.disabled = !canHear;

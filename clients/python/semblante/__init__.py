@@ -18,13 +18,14 @@ from .listener import Listener
 from .performance import Performance, Take, TakeFormat, write_take
 from .player import Player
 from .server import Connection, fetch_head, follow, now
-from .stream import SUBPROTOCOL, EventType, State, Stream
+from .speaker import Speaker
+from .stream import SUBPROTOCOL, EventType, State, Stream, VoiceState
 from .websocket import Closed, WebSocket, WebSocketError
 
 __version__ = "0.2.0"
 
 __all__ = [
     "ARKIT_NAMES", "OCULUS_NAMES", "SUBPROTOCOL", "Closed", "Connection", "EventType", "Frame", "Head", "Heard",
-    "Listener", "Performance", "Player", "Pose", "SemblanteError", "State", "Stream", "Take", "TakeFormat", "TimedFrame", "WebSocket", "WebSocketError",
+    "Listener", "Performance", "Player", "Pose", "SemblanteError", "Speaker", "State", "Stream", "Take", "TakeFormat", "TimedFrame", "VoiceState", "WebSocket", "WebSocketError",
     "fetch_head", "follow", "frame", "from_arkit", "from_oculus", "now", "to_arkit", "to_oculus", "write_take",
 ]

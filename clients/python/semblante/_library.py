@@ -114,14 +114,15 @@ class StreamOptions(Sized):
     _fields_ = [("size", c_uint32), ("role", c_uint32), ("take_over", c_uint32), ("max_message_bytes", c_uint32),
                 ("retry_first", c_double), ("retry_longest", c_double), ("seed", c_uint64), ("ping_interval", c_double),
                 ("silence_limit", c_double), ("batch", c_double), ("resume_epoch", c_uint64), ("resume_sequence", c_uint64),
-                ("sound", c_uint32), ("reserved", c_uint32)]
+                ("sound", c_uint32), ("text", c_uint32)]
 
 
 class Event(Sized):
     _fields_ = [("size", c_uint32), ("type", c_uint32), ("state", c_uint32), ("code", c_uint32), ("resumed", c_uint32),
                 ("is_final", c_uint32), ("epoch", c_uint64), ("sequence", c_uint64), ("media_time", c_double),
                 ("round_trip", c_double), ("server_offset", c_double), ("error", Error),
-                ("duration", c_double), ("packet", POINTER(c_uint8)), ("packet_size", c_uint32), ("reserved", c_uint32)]
+                ("duration", c_double), ("packet", POINTER(c_uint8)), ("packet_size", c_uint32), ("reserved", c_uint32),
+                ("text", c_char_p), ("language", c_char_p)]
 
 
 class Header(Sized):
@@ -262,6 +263,13 @@ functions = {  # name: (result, arguments)
     "semblante_take_warning_count": (c_uint32, [_handle]),
     "semblante_take_get_warning": (_result, [_handle, c_uint32, POINTER(TakeWarning)]),
     "semblante_take_write": (_result, [c_uint32, _timed, c_uint32, c_double, c_char_p, POINTER(c_size_t), _error]),
+    "semblante_stream_spoken": (_result, [_handle, c_uint32, c_uint64, c_uint32, c_double]),
+    "semblante_speaker_create": (_result, [c_uint32, _made, _error]),
+    "semblante_speaker_destroy": (None, [_handle]),
+    "semblante_speaker_say": (_result, [_handle, POINTER(c_uint8), c_size_t, c_uint32, c_double]),
+    "semblante_speaker_reach": (None, [_handle, c_uint32, c_double]),
+    "semblante_speaker_end": (None, [_handle, c_double]),
+    "semblante_speaker_show": (c_uint32, [_handle, c_double, POINTER(Frame)]),
     "semblante_listener_create": (_result, [POINTER(ListenerOptions), _made, _error]),
     "semblante_listener_destroy": (None, [_handle]),
     "semblante_listener_push": (_result, [_handle, POINTER(c_float), c_uint32, _count, POINTER(Heard)]),

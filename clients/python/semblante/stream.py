@@ -21,6 +21,7 @@ class EventType(enum.IntEnum):
     FAULT = 9
     END = 10
     SOUND = 11
+    TEXT = 12
 
 
 class State(enum.IntEnum):
@@ -30,18 +31,28 @@ class State(enum.IntEnum):
     WAITING = 3
 
 
+class VoiceState(enum.IntEnum):
+    REACHED = 0
+    ENDED = 1
+    FAILED = 2
+    READY = 3
+
+
 class Stream(Owner):
     """One stream across connections: bytes and times go in, events and bytes to send come out. `now`: ms of a steady clock.
     `semblante.follow` is a ready loop around it."""
 
     _destroy = library.semblante_stream_destroy
 
-    def __init__(self, *, publish=False, take_over=False, batch=0.0, seed=0, ping_interval=0.0, resume=None, sound=False):
+    def __init__(self, *, publish=False, take_over=False, batch=0.0, seed=0, ping_interval=0.0, resume=None, sound=False,
+                 text=False):
         """`batch`: a publisher's frames of this many ms travel in one message. `resume`: what `resume_point` of an earlier
-        object gave. `sound`: SOUND events bring the packets of the stream's sound."""
+        object gave. `sound`: SOUND events bring the packets of the stream's sound. `text`: this client has
+        a voice of its own, and TEXT events come in place of frames and sound of speech."""
         epoch, sequence = resume or (0, 0)
         options = StreamOptions(role=int(publish), take_over=int(take_over), batch=batch, seed=seed,
-                                ping_interval=ping_interval, resume_epoch=epoch, resume_sequence=sequence, sound=int(sound))
+                                ping_interval=ping_interval, resume_epoch=epoch, resume_sequence=sequence, sound=int(sound),
+                                text=int(text))
         super().__init__(make(library.semblante_stream_create, ctypes.byref(options)))
 
     def start(self, now):
@@ -89,6 +100,15 @@ class Stream(Owner):
     def packet(event):
         """The bytes of a SOUND event, before the next event is taken; they begin at its `media_time` and last `duration` ms."""
         return ctypes.string_at(event.packet, event.packet_size) if event.packet_size else b""
+
+    @staticmethod
+    def text(event):
+        """The text, language and score of a TEXT event, before the next event is taken; its number is `sequence`."""
+        return event.text.decode(), event.language.decode(), Stream.packet(event)
+
+    def spoken(self, state, now, speech=0, character=0):
+        """What the client's own voice does, a VoiceState: at a character of the text with that number, or in general."""
+        check(library.semblante_stream_spoken(self._handle, state, speech, character, now))
 
     def events(self):
         while (event := self.next_event()) is not None:

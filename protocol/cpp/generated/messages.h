@@ -40,6 +40,8 @@ inline constexpr std::size_t max_frames_per_message = 1024;
 inline constexpr std::size_t max_frame_time = 86400000;
 inline constexpr std::size_t max_level = 32767;
 inline constexpr std::size_t max_sound_packet_bytes = 4000;
+inline constexpr std::size_t max_speech_text_bytes = 2000;
+inline constexpr std::size_t max_score_bytes = 4000;
 
 /// The role of a client in the stream.
 enum class StreamRole : std::uint8_t {
@@ -68,6 +70,16 @@ enum class SoundCodec : std::uint8_t {
 };
 inline constexpr std::array<std::string_view, 2> sound_codec_value_names = {"other", "opus"};
 inline constexpr EnumNames sound_codec_names{sound_codec_value_names, true};
+
+/// What the client's own voice does.
+enum class VoiceState : std::uint8_t {
+  reached,  ///< it begins the word at `character`
+  ended,  ///< it has said the text, or was silenced
+  failed,  ///< it cannot speak: the client is to get frames from now on
+  ready,  ///< it can speak: the client is to get text from now on
+};
+inline constexpr std::array<std::string_view, 4> voice_state_value_names = {"reached", "ended", "failed", "ready"};
+inline constexpr EnumNames voice_state_names{voice_state_value_names, false};
 
 /// The kind of error in a message.
 enum class StreamErrorCode : std::uint8_t {
@@ -113,6 +125,7 @@ struct Hello {
   std::optional<ResumePoint> resume;  ///< present after a lost connection
   bool take_over = false;  ///< for a publisher: replace the current source
   bool sound = false;  ///< for a subscriber: send the sound too
+  bool text = false;  ///< for a subscriber with a voice of its own: send text in place of frames and sound of speech
   friend bool operator==(const Hello&, const Hello&) = default;
 };
 
@@ -172,6 +185,25 @@ struct SoundPacket {
   friend bool operator==(const SoundPacket&, const SoundPacket&) = default;
 };
 
+/// A sentence that the client's own voice is to say. An empty text: what is being said, and what waits, is to stop.
+struct SpeechText {
+  std::uint64_t speech = 0;  ///< number of this text within the epoch; increases
+  std::uint64_t media_time = 0;  ///< ms; when its first word is to begin, on the clock of the frames
+  std::string language;  ///< tag of BCP 47; empty: unknown
+  std::string text;
+  std::vector<std::uint8_t> score;  ///< what the mouth does when, as section 2.2 has it
+  friend bool operator==(const SpeechText&, const SpeechText&) = default;
+};
+
+/// What the client's own voice does with a text.
+struct Spoken {
+  VoiceState state{};
+  std::uint64_t speech = 0;  ///< number of the text; 0: none
+  std::uint32_t character = 0;  ///< number of characters (code points) of the text before the place that is reached
+  std::uint64_t media_time = 0;  ///< ms; when it was, on the stream's clock; 0: unknown
+  friend bool operator==(const Spoken&, const Spoken&) = default;
+};
+
 /// Requests the clocks of server and stream.
 struct Ping {
   std::uint32_t id = 0;  ///< returned in the pong
@@ -188,7 +220,7 @@ struct Pong {
   friend bool operator==(const Pong&, const Pong&) = default;
 };
 
-using Message = std::variant<Hello, Header, Keyframe, Frames, End, StreamError, SoundPacket, Ping, Pong>;
+using Message = std::variant<Hello, Header, Keyframe, Frames, End, StreamError, SoundPacket, SpeechText, Spoken, Ping, Pong>;
 
 /// First byte of the binary form and `type` of the JSON form, for each message.
 template <class M>
@@ -229,6 +261,16 @@ struct MessageTraits<SoundPacket> {
   static constexpr std::string_view name = "sound";
 };
 template <>
+struct MessageTraits<SpeechText> {
+  static constexpr std::uint8_t type = 11;
+  static constexpr std::string_view name = "text";
+};
+template <>
+struct MessageTraits<Spoken> {
+  static constexpr std::uint8_t type = 12;
+  static constexpr std::string_view name = "spoken";
+};
+template <>
 struct MessageTraits<Ping> {
   static constexpr std::uint8_t type = 7;
   static constexpr std::string_view name = "ping";
@@ -265,6 +307,7 @@ void visit_fields(M& m, V& v) {
   v.optional("resume", m.resume, Presence::defaulted);
   v.boolean("take_over", m.take_over, Presence::appended);
   v.boolean("sound", m.sound, Presence::appended);
+  v.boolean("text", m.text, Presence::appended);
 }
 
 template <class M, class V>
@@ -321,6 +364,25 @@ template <class M, class V>
 void visit_fields(M& m, V& v) {
   v.uint("media_time", m.media_time, 9007199254740991U, Presence::defaulted);
   v.bytes("packet", m.packet, 4000, Presence::required);
+}
+
+template <class M, class V>
+  requires std::same_as<std::remove_const_t<M>, SpeechText>
+void visit_fields(M& m, V& v) {
+  v.uint("speech", m.speech, 9007199254740991U, Presence::required);
+  v.uint("media_time", m.media_time, 9007199254740991U, Presence::defaulted);
+  v.text("language", m.language, 64, Presence::defaulted);
+  v.text("text", m.text, 2000, Presence::defaulted);
+  v.bytes("score", m.score, 4000, Presence::required);
+}
+
+template <class M, class V>
+  requires std::same_as<std::remove_const_t<M>, Spoken>
+void visit_fields(M& m, V& v) {
+  v.enumeration("state", m.state, voice_state_names, Presence::required);
+  v.uint("speech", m.speech, 9007199254740991U, Presence::defaulted);
+  v.uint("character", m.character, 2000U, Presence::defaulted);
+  v.uint("media_time", m.media_time, 9007199254740991U, Presence::defaulted);
 }
 
 template <class M, class V>

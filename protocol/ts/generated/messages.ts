@@ -13,6 +13,8 @@ export const limits = {
   max_frame_time: 86400000,
   max_level: 32767,
   max_sound_packet_bytes: 4000,
+  max_speech_text_bytes: 2000,
+  max_score_bytes: 4000,
 } as const;
 
 /** The role of a client in the stream. */
@@ -23,6 +25,9 @@ export type EndReason = 'other' | 'finished' | 'deleted' | 'shutdown' | 'replace
 
 /** How the packets of a sound are coded. */
 export type SoundCodec = 'other' | 'opus';
+
+/** What the client's own voice does. */
+export type VoiceState = 'reached' | 'ended' | 'failed' | 'ready';
 
 /** The kind of error in a message. */
 export type StreamErrorCode = 'other' | 'malformed' | 'truncated' | 'out_of_range' | 'not_finite' | 'too_large' | 'unsupported' | 'mismatch' | 'missing' | 'invalid_argument' | 'not_found' | 'conflict' | 'throttled' | 'unauthorized' | 'internal';
@@ -57,6 +62,8 @@ export interface Hello {
   take_over: boolean;
   /** for a subscriber: send the sound too */
   sound: boolean;
+  /** for a subscriber with a voice of its own: send text in place of frames and sound of speech */
+  text: boolean;
 }
 
 /** The first message of a server: properties of the stream and its encoding. */
@@ -138,6 +145,32 @@ export interface SoundPacket {
   packet: Uint8Array;
 }
 
+/** A sentence that the client's own voice is to say. An empty text: what is being said, and what waits, is to stop. */
+export interface SpeechText {
+  type: 'text';
+  /** number of this text within the epoch; increases */
+  speech: number;
+  /** ms; when its first word is to begin, on the clock of the frames */
+  media_time: number;
+  /** tag of BCP 47; empty: unknown */
+  language: string;
+  text: string;
+  /** what the mouth does when, as section 2.2 has it */
+  score: Uint8Array;
+}
+
+/** What the client's own voice does with a text. */
+export interface Spoken {
+  type: 'spoken';
+  state: VoiceState;
+  /** number of the text; 0: none */
+  speech: number;
+  /** number of characters (code points) of the text before the place that is reached */
+  character: number;
+  /** ms; when it was, on the stream's clock; 0: unknown */
+  media_time: number;
+}
+
 /** Requests the clocks of server and stream. */
 export interface Ping {
   type: 'ping';
@@ -160,7 +193,7 @@ export interface Pong {
   media_time: number;
 }
 
-export type Message = Hello | Header | Keyframe | Frames | End | StreamError | SoundPacket | Ping | Pong;
+export type Message = Hello | Header | Keyframe | Frames | End | StreamError | SoundPacket | SpeechText | Spoken | Ping | Pong;
 
 /** Texts of an enumeration by value. An open one reads values it does not know as its first. */
 export interface EnumValues {
@@ -197,6 +230,7 @@ export interface MessageDescription {
 const stream_role_values: EnumValues = { names: ['subscribe', 'publish'], open: false };
 const end_reason_values: EnumValues = { names: ['other', 'finished', 'deleted', 'shutdown', 'replaced', 'slow'], open: true };
 const sound_codec_values: EnumValues = { names: ['other', 'opus'], open: true };
+const voice_state_values: EnumValues = { names: ['reached', 'ended', 'failed', 'ready'], open: false };
 const stream_error_code_values: EnumValues = { names: ['other', 'malformed', 'truncated', 'out_of_range', 'not_finite', 'too_large', 'unsupported', 'mismatch', 'missing', 'invalid_argument', 'not_found', 'conflict', 'throttled', 'unauthorized', 'internal'], open: true };
 
 const resume_point_fields: readonly Field[] = [
@@ -220,6 +254,7 @@ export const messages: readonly MessageDescription[] = [
       { name: 'resume', type: 'optional', fields: resume_point_fields, required: false, fallback: null },
       { name: 'take_over', type: 'bool', appended: true, required: false, fallback: false },
       { name: 'sound', type: 'bool', appended: true, required: false, fallback: false },
+      { name: 'text', type: 'bool', appended: true, required: false, fallback: false },
     ],
   },
   {
@@ -282,6 +317,27 @@ export const messages: readonly MessageDescription[] = [
     fields: [
       { name: 'media_time', type: 'uint', max: 9007199254740991, required: false, fallback: 0 },
       { name: 'packet', type: 'bytes', max: 4000, required: true, fallback: new Uint8Array() },
+    ],
+  },
+  {
+    type: 11,
+    name: 'text',
+    fields: [
+      { name: 'speech', type: 'uint', max: 9007199254740991, required: true, fallback: 0 },
+      { name: 'media_time', type: 'uint', max: 9007199254740991, required: false, fallback: 0 },
+      { name: 'language', type: 'text', max: 64, required: false, fallback: '' },
+      { name: 'text', type: 'text', max: 2000, required: false, fallback: '' },
+      { name: 'score', type: 'bytes', max: 4000, required: true, fallback: new Uint8Array() },
+    ],
+  },
+  {
+    type: 12,
+    name: 'spoken',
+    fields: [
+      { name: 'state', type: 'enum', values: voice_state_values, required: true, fallback: 'reached' },
+      { name: 'speech', type: 'uint', max: 9007199254740991, required: false, fallback: 0 },
+      { name: 'character', type: 'uint', max: 2000, required: false, fallback: 0 },
+      { name: 'media_time', type: 'uint', max: 9007199254740991, required: false, fallback: 0 },
     ],
   },
   {

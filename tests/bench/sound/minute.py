@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""What a minute of talk takes on the wire: face, sound, both. Python 3, standard library.
+"""What a minute of talk takes on the wire: face, sound, both, text alone. Python 3, standard library.
 
     minute.py PROGRAM [TEXT_FILE]     PROGRAM: build/bin/semblante, with its voice beside it
 
 Starts a server, has a stream say the text, and counts the WebSocket payloads and headers of one subscriber without and one with
-sound, until the talk ends."""
+sound, and of one with a voice of its own, until the talk ends."""
 
 import base64
 import http.client
@@ -37,12 +37,12 @@ def ask(port, method, path, body=None):
 
 
 class Subscriber(threading.Thread):
-    """Counts what comes; in the binary form a first byte of 10 is sound, 9 and 128 to 255 are faces."""
+    """Counts what comes; in the binary form a first byte of 10 is sound, 11 is text, 9 and 128 to 255 are faces."""
 
-    def __init__(self, port, sound):
+    def __init__(self, port, sound=False, text=False):
         super().__init__(daemon=True)
-        self.bytes = {"face": 0, "sound": 0}
-        self.messages = {"face": 0, "sound": 0}
+        self.bytes = {"face": 0, "sound": 0, "text": 0}
+        self.messages = dict(self.bytes)
         self.socket = socket.create_connection(("127.0.0.1", port))
         key = base64.b64encode(os.urandom(16)).decode()
         self.socket.sendall(
@@ -51,7 +51,7 @@ class Subscriber(threading.Thread):
         self.file = self.socket.makefile("rb")
         while self.file.readline() != b"\r\n":
             pass
-        hello = bytes([1, 1, 0, 0]) + (bytes([0, 1]) if sound else b"")
+        hello = bytes([1, 1, 0, 0]) + (bytes([0, sound, text]) if sound or text else b"")
         self.socket.sendall(bytes([0x82, 0x80 | len(hello)]) + bytes(4) + hello)
 
     def run(self):
@@ -62,7 +62,7 @@ class Subscriber(threading.Thread):
             payload = self.file.read(size)
             if head[0] & 15 != 2 or not payload or payload[0] in (2, 5):
                 continue
-            kind = "sound" if payload[0] == 10 else "face"
+            kind = {10: "sound", 11: "text"}.get(payload[0], "face")
             self.bytes[kind] += header + size
             self.messages[kind] += 1
 
@@ -80,7 +80,7 @@ def main(program, text):
                     pass
                 time.sleep(0.1)
             assert ask(port, "POST", "/v1/streams", {"name": "talk"})[0] == 201
-            subscribers = [Subscriber(port, sound) for sound in (False, True)]
+            subscribers = [Subscriber(port), Subscriber(port, sound=True), Subscriber(port, text=True)]
             for one in subscribers:
                 one.start()
             begun = time.monotonic()
@@ -90,14 +90,17 @@ def main(program, text):
             seconds = playing["duration"] / 1000
             while ask(port, "GET", "/v1/streams/talk")[1].get("playing"):
                 time.sleep(0.5)
-            without, both = subscribers
-            assert without.bytes["sound"] == 0
+            without, both, reader = subscribers
+            assert without.bytes["sound"] == without.bytes["text"] == both.bytes["text"] == reader.bytes["sound"] == 0
             print(f"{seconds:.1f} s of talk; the request was answered after {answered * 1000:.0f} ms")
             print("| a minute of talk | messages | bytes | kbit/s |\n|---|---|---|---|")
             rows = [("face", without.messages["face"], without.bytes["face"]), ("sound", both.messages["sound"], both.bytes["sound"]),
-                    ("both", sum(both.messages.values()), sum(both.bytes.values()))]
+                    ("both", sum(both.messages.values()), sum(both.bytes.values())),
+                    ("text alone", sum(reader.messages.values()), sum(reader.bytes.values()))]
             for name, messages, count in rows:
-                print(f"| {name} | {messages * 60 / seconds:.0f} | {count * 60 / seconds:.0f} | {count * 8 / seconds / 1000:.1f} |")
+                print(f"| {name} | {messages * 60 / seconds:.0f} | {count * 60 / seconds:.0f} | {count * 8 / seconds / 1000:.2f} |")
+            said = len(text.encode()) * 8 / seconds
+            print(f"of the text alone: {reader.messages['text']} sentences, {reader.bytes['text']} bytes; the letters themselves take {said:.0f} bit/s")
         finally:
             server.terminate()
             server.wait()

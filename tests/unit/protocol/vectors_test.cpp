@@ -13,6 +13,7 @@
 #include "protocol/cpp/packed_codec.h"
 #include "protocol/cpp/quantizers.h"
 #include "protocol/cpp/rig_document.h"
+#include "protocol/cpp/speech_score.h"
 #include "protocol/cpp/weights_format.h"
 #include "tests/support/frame_encoder.h"
 
@@ -164,10 +165,35 @@ TEST(Vectors, Sound_BinaryAndJson_MeanTheSame) {
   EXPECT_EQ(packets, 4U);
 }
 
+TEST(Vectors, Text_BinaryAndJson_MeanTheSame) {
+  const json vectors = json::parse(read("text.json"));
+  std::size_t texts = 0;
+  for (const json& vector : vectors.at("messages")) {
+    const std::string name = vector.at("name");
+    Message message;
+    ASSERT_NO_FATAL_FAILURE(read_both_forms(vector, message));
+    const auto* text = std::get_if<SpeechText>(&message);
+    if (text == nullptr) continue;
+    ++texts;
+    const auto score = read_score(text->score);
+    ASSERT_TRUE(score) << name;
+    json steps = json::array(), expressions = json::array();
+    for (const auto& step : score->steps)
+      steps.push_back({step.viseme, step.begins_word ? 1 : 0, step.end - step.begin});
+    for (const auto& one : score->expressions) expressions.push_back({one.begin, one.expression, one.intensity});
+    EXPECT_EQ(steps, vector.at("steps")) << name;
+    EXPECT_EQ(expressions, vector.at("expressions")) << name;
+    EXPECT_EQ(write_score(*score), text->score) << name;
+  }
+  EXPECT_EQ(texts, 4U);
+}
+
 TEST(Vectors, Refused_BinaryAndJson_AreNamedByCodeAndPointer) {
   json all = json::parse(read("refused.json")).at("refused");
   const json of_sound = json::parse(read("sound.json"));
   for (const json& vector : of_sound.at("refused")) all.push_back(vector);
+  const json of_text = json::parse(read("text.json"));
+  for (const json& vector : of_text.at("refused")) all.push_back(vector);
   ASSERT_GT(all.size(), 20U);
   for (const json& vector : all) {
     const std::string name = vector.at("name");

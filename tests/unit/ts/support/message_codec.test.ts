@@ -33,9 +33,10 @@ interface Refused {
   where: string;
 }
 const sound = vectorJson('sound.json') as { messages: (Vector & { lasts?: number })[]; refused: Refused[] };
-const refused = [...(vectorJson('refused.json') as { refused: Refused[] }).refused, ...sound.refused];
+const text = vectorJson('text.json') as { messages: Vector[]; refused: Refused[] };
+const refused = [...(vectorJson('refused.json') as { refused: Refused[] }).refused, ...sound.refused, ...text.refused];
 
-const faceless = [...vectors.filter(({ json }) => !hasFace(json as { type: string })), ...sound.messages.filter(({ json }) => json['type'] === 'sound')];
+const faceless = [...vectors.filter(({ json }) => !hasFace(json as { type: string })), ...sound.messages.filter(({ json }) => json['type'] === 'sound'), ...text.messages.filter(({ json }) => json['type'] !== 'hello')];
 
 function errorOf(run: () => unknown): ProtocolError {
   try {
@@ -99,7 +100,7 @@ describe('decodeMessage', () => {
   it('Decode_BytesOfALaterVersion_AreSkipped', () => {
     for (const { binary, json } of faceless) {
       const appends = json['type'] === 'header' || json['type'] === 'hello'; // a field of their own
-      const unknown = appends ? '0000010203' : '010203';
+      const unknown = appends ? '000000010203' : '010203';
       expect(decodeMessage(fromHex(binary + unknown))).toEqual(decodeMessage(fromHex(binary)));
     }
   });

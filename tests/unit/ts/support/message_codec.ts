@@ -1,6 +1,7 @@
 import { ByteReader, ByteWriter, EndOfBytes, VarintTooLarge } from '../../../../protocol/ts/byte_io.ts';
 import { isAppended, limits, messages, type Field, type Message } from '../../../../protocol/ts/messages.ts';
 import { opusPacketMs } from '../../../../protocol/ts/opus_packet.ts';
+import { isScoreOf } from '../../../../protocol/ts/speech_score.ts';
 import { ProtocolError } from '../../../../protocol/ts/protocol_error.ts';
 
 type Values = Record<string, unknown>;
@@ -107,6 +108,9 @@ export function decodeMessage(bytes: Uint8Array): Message {
   for (const field of description.fields) values[field.name] = read(from, field, '');
   if (description.name === 'sound' && opusPacketMs(values.packet as Uint8Array) === null) {
     throw new ProtocolError('malformed', '/packet', 'is no Opus packet');
+  }
+  if (description.name === 'text' && !isScoreOf(values.score as Uint8Array, values.text as string)) {
+    throw new ProtocolError('malformed', '/score', 'is no score of the text');
   }
   return values as unknown as Message; // bytes after the last field belong to a later version
 }

@@ -1,0 +1,259 @@
+import { beforeAll, beforeEach, describe, expect, it, vi } from 'vitest';
+import { Player, StreamClient, type PoseMaker, type StreamOptions } from '../../../../clients/js/index.ts';
+import { StreamSpeech, voiceFor } from '../../../../clients/js/speech/stream_speech.ts';
+import { isScoreOf, neutralFrame, wordsOf, wordTimes, type Message, type SpeechText, type Spoken } from '../../../../protocol/ts/index.ts';
+import { FakeSocket, headerOf } from '../support/fake_socket.ts';
+import { loadRuntime } from '../support/runtime.ts';
+
+beforeAll(loadRuntime);
+
+/** "Am pe": a for 120 ms, m for 60; p for 60, e for 120. */
+const score = Uint8Array.of(0xab, 0x11, 0x19, 0xb3);
+const text = (given: Partial<SpeechText> = {}): SpeechText => ({ type: 'text', speech: 1, media_time: 10_000, language: 'en', text: 'Am pe', score, ...given });
+
+class Utterance {
+  onstart: (() => void) | null = null;
+  onend: (() => void) | null = null;
+  onerror: ((event: { error: string }) => void) | null = null;
+  onboundary: ((event: { name: string; charIndex: number }) => void) | null = null;
+  voice: SpeechSynthesisVoice | null = null;
+  lang = '';
+  rate = 1;
+  constructor(readonly text: string) {}
+}
+vi.stubGlobal('SpeechSynthesisUtterance', Utterance);
+
+/** The browser's voices, told by the test what happens. */
+class Voices {
+  said: Utterance[] = [];
+  cancelled = 0;
+  constructor(public voices = [voiceOf('en-GB')]) {}
+  getVoices = (): SpeechSynthesisVoice[] => this.voices;
+  speak = (utterance: Utterance): void => void this.said.push(utterance);
+  cancel = (): void => void (this.cancelled += 1);
+  addEventListener = (): void => undefined;
+  get last(): Utterance {
+    return this.said.at(-1)!;
+  }
+}
+
+function voiceOf(lang: string, given: Partial<SpeechSynthesisVoice> = {}): SpeechSynthesisVoice {
+  return { lang, name: lang, voiceURI: lang, default: false, localService: true, ...given };
+}
+
+const poses: PoseMaker = { evaluateAt: () => undefined, interpolate: () => undefined };
+
+async function begin(voices: Voices | undefined = new Voices()) {
+  const client = new StreamClient('ws://x', {
+    WebSocket: FakeSocket as unknown as NonNullable<StreamOptions['WebSocket']>,
+    now: () => Date.now(),
+    pingInterval: 0,
+  });
+  const speech = new StreamSpeech(client, () => 0, voices as unknown as SpeechSynthesis, () => Date.now());
+  const shown: number[] = [];
+  const player = new Player(
+    { ...poses, evaluateAt: (runtime, frame, pose) => pose === 0 && shown.push(runtime.bytes[frame + (runtime.bytes[frame + 2]! >= 32 ? 0 : 1)]!) },
+    { now: () => Date.now(), overlay: (runtime, frame) => speech.show(runtime, frame) },
+  );
+  player.follow(client);
+  client.connect();
+  greet(9, 10_000);
+  const started = await speech.start();
+  const give = (message: Message): void => FakeSocket.last.give(message);
+  const told = (): Spoken[] => FakeSocket.last.sent.splice(0).filter((one): one is Spoken => one.type === 'spoken');
+  /** The viseme that is shown now; null: the stream's own frame. */
+  const mouth = (): number | null => {
+    shown.length = 0;
+    player.update(0.016);
+    return shown.at(-1) ?? null;
+  };
+  return { client, speech, voices: voices!, started, give, told, mouth };
+}
+
+function greet(epoch: number, mediaTime: number): void {
+  FakeSocket.last.accept();
+  FakeSocket.last.give(headerOf({ epoch, media_time: mediaTime }));
+  FakeSocket.last.give({ type: 'keyframe', sequence: 1, media_time: mediaTime, state: neutralFrame() });
+}
+
+beforeEach(() => {
+  vi.useFakeTimers({ now: 50_000 });
+});
+
+describe('a score', () => {
+  it('has the words of its text, with their times', () => {
+    expect(wordTimes(score)).toEqual([0, 180]);
+    expect(wordTimes(Uint8Array.of(0xf1, 63, 0x0f, 0x0f))).toEqual([0, 240]);
+    expect(wordsOf(' Am\tpe 😀!\n')).toEqual([{ begin: 1, end: 3 }, { begin: 4, end: 6 }, { begin: 7, end: 10 }]);
+    expect(isScoreOf(score, 'Am pe')).toBe(true);
+    expect(isScoreOf(score, 'Ampe')).toBe(false);
+    expect(isScoreOf(Uint8Array.of(0xf8), '')).toBe(false);
+  });
+});
+
+describe('StreamSpeech', () => {
+  it('Text_IsSaidAtItsTime_AndTheFaceFollowsTheVoice', async () => {
+    const { give, voices, told, mouth, started } = await begin();
+    expect(started).toBe(true);
+    expect(told()).toEqual([{ type: 'spoken', state: 'ready', speech: 0, character: 0, media_time: 10_000 }]);
+    give(text({ media_time: 10_500 }));
+    await vi.advanceTimersByTimeAsync(490);
+    expect(voices.said).toHaveLength(0);
+    await vi.advanceTimersByTimeAsync(20);
+    expect(voices.last.text).toBe('Am pe');
+    expect(voices.last.voice!.lang).toBe('en-GB');
+    expect(mouth()).toBeNull(); // it has not begun
+
+    await vi.advanceTimersByTimeAsync(200);
+    voices.last.onstart!();
+    voices.last.onboundary!({ name: 'word', charIndex: 0 });
+    expect(told()).toMatchObject([{ state: 'reached', speech: 1, character: 0 }]);
+    await vi.advanceTimersByTimeAsync(60);
+    expect(mouth()).toBe(10);
+    await vi.advanceTimersByTimeAsync(300); // a slow voice: its second word has not begun
+    mouth();
+    await vi.advanceTimersByTimeAsync(16);
+    expect(mouth()).toBe(1);
+    voices.last.onboundary!({ name: 'word', charIndex: 3 });
+    expect(told()).toEqual([]); // once a second is enough
+    await vi.advanceTimersByTimeAsync(150);
+    mouth();
+    await vi.advanceTimersByTimeAsync(10);
+    expect(mouth()).toBe(11);
+    voices.last.onend!();
+    expect(told()).toMatchObject([{ state: 'ended', speech: 1, character: 5 }]);
+    await vi.advanceTimersByTimeAsync(400);
+    mouth();
+    expect(mouth()).toBeNull(); // the stream's own face again
+  });
+
+  it('Texts_AreSaidOneAfterAnother', async () => {
+    const { give, voices } = await begin();
+    give(text());
+    give(text({ speech: 2, media_time: 10_100 }));
+    await vi.advanceTimersByTimeAsync(5);
+    voices.last.onstart!();
+    await vi.advanceTimersByTimeAsync(1000);
+    expect(voices.said).toHaveLength(1);
+    voices.last.onend!();
+    await vi.advanceTimersByTimeAsync(5);
+    expect(voices.said).toHaveLength(2);
+  });
+
+  it('SlowVoice_IsAskedToSpeakFaster', async () => {
+    const { give, voices } = await begin();
+    const long = Uint8Array.of(0x9f, 0x97, 0x97, 0x97); // 960 ms
+    give(text({ text: 'a', score: long }));
+    give(text({ speech: 2, text: 'a', score: long, media_time: 10_960 }));
+    await vi.advanceTimersByTimeAsync(1);
+    voices.last.onstart!();
+    await vi.advanceTimersByTimeAsync(1248);
+    voices.last.onend!();
+    await vi.advanceTimersByTimeAsync(1);
+    expect(voices.last.rate).toBeCloseTo(1.3, 2);
+  });
+
+  it('EmptyText_Silences', async () => {
+    const { give, voices, told } = await begin();
+    give(text());
+    give(text({ speech: 2, media_time: 11_000 }));
+    await vi.advanceTimersByTimeAsync(5);
+    voices.last.onstart!();
+    give(text({ speech: 3, text: '', score: new Uint8Array(0) }));
+    expect(voices.cancelled).toBe(1);
+    await vi.advanceTimersByTimeAsync(3000);
+    expect(voices.said).toHaveLength(1);
+    expect(told().map(({ state }) => state)).toEqual(['ready']);
+  });
+
+  it('LateJoin_BeginsWithAWordThatIsStillToCome', async () => {
+    const { give, voices, mouth } = await begin();
+    const words = Uint8Array.of(0xaf, 0xa7, 0xa7, 0xa7, 0xbf, 0xb7); // the second at 960 ms
+    give(text({ media_time: 9_200, text: 'one two', score: words }));
+    await vi.advanceTimersByTimeAsync(150);
+    expect(voices.said).toHaveLength(0);
+    await vi.advanceTimersByTimeAsync(20);
+    expect(voices.last.text).toBe('two');
+    voices.last.onstart!();
+    voices.last.onboundary!({ name: 'word', charIndex: 0 });
+    await vi.advanceTimersByTimeAsync(60);
+    expect(mouth()).toBe(11);
+    give(text({ speech: 2, media_time: 1000 }));
+    voices.last.onend!();
+    await vi.advanceTimersByTimeAsync(2000);
+    expect(voices.said).toHaveLength(1); // all of the other one was over
+  });
+
+  it('NewConnection_GoesOnWithWhatItKnows_AnotherEpochDoesNot', async () => {
+    const { client, give, voices } = await begin();
+    give(text());
+    await vi.advanceTimersByTimeAsync(5);
+    voices.last.onstart!();
+    FakeSocket.last.drop();
+    client.connect();
+    greet(9, 10_050);
+    const hello = FakeSocket.last.sent[0]!;
+    expect(hello).toMatchObject({ type: 'hello', text: true });
+    give(text());
+    expect(voices.cancelled).toBe(0);
+    FakeSocket.last.drop();
+    client.connect();
+    greet(10, 0);
+    expect(voices.cancelled).toBe(1);
+    give(text({ media_time: 0 }));
+    await vi.advanceTimersByTimeAsync(50);
+    expect(voices.said).toHaveLength(2);
+  });
+
+  it.each([
+    ['has no voice of the language', (voices: Voices) => void (voices.voices = [voiceOf('pt-BR')])],
+    ['does not begin', () => undefined],
+    ['breaks', (voices: Voices) => setTimeout(() => voices.last.onerror!({ error: 'synthesis-failed' }), 100)],
+    ['never ends', (voices: Voices) => setTimeout(() => voices.last.onstart!(), 100)],
+  ])('BrowserThat_%s_GetsFrames', async (_, happens) => {
+    const { client, give, speech, voices, told } = await begin();
+    told();
+    happens(voices);
+    give(text());
+    await vi.advanceTimersByTimeAsync(20_000);
+    expect(speech.state).toBe('failed');
+    expect(told()).toMatchObject([{ state: 'failed' }]);
+    FakeSocket.last.drop();
+    client.connect();
+    greet(9, 30_000);
+    expect(FakeSocket.last.sent[0]).toMatchObject({ type: 'hello', text: false });
+  });
+
+  it('BrowserWithoutVoices_AsksForNoText', async () => {
+    const client = new StreamClient('ws://x', { WebSocket: FakeSocket as unknown as NonNullable<StreamOptions['WebSocket']> });
+    for (const synthesis of [undefined, new Voices([])]) {
+      const speech = new StreamSpeech(client, () => 0, synthesis as unknown as SpeechSynthesis);
+      const started = speech.start();
+      await vi.advanceTimersByTimeAsync(2000);
+      expect(await started).toBe(false);
+      expect(speech.state).toBe('failed');
+    }
+  });
+
+  it('Stop_BringsFramesAndSilence', async () => {
+    const { give, speech, voices, told } = await begin();
+    give(text());
+    await vi.advanceTimersByTimeAsync(5);
+    voices.last.onstart!();
+    told();
+    speech.stop();
+    expect(voices.cancelled).toBe(1);
+    expect(told()).toMatchObject([{ state: 'failed' }]);
+    expect(speech.state).toBe('off');
+  });
+
+  it('VoiceFor_PrefersTheRegionAndThisDevice', () => {
+    const voices = [voiceOf('en-US', { default: true }), voiceOf('pt_PT'), voiceOf('pt-BR', { localService: false }), voiceOf('pt-BR')];
+    expect(voiceFor(voices, 'pt-BR')).toBe(voices[3]);
+    expect(voiceFor(voices, 'pt-AO')).toBe(voices[1]);
+    expect(voiceFor(voices, 'en')).toBe(voices[0]);
+    expect(voiceFor(voices, 'de')).toBeNull();
+    expect(voiceFor(voices, '')).toBe(voices[0]);
+    expect(voiceFor([], 'en')).toBeNull();
+  });
+});
