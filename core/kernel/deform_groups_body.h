@@ -270,26 +270,6 @@ static inline __attribute__((always_inline)) void deform_run_of(const semblante_
     case 4:
       deform_run(face, pose, positions, run, 4, then, NULL, at);
       break;
-#if SEMBLANTE_LANES == 8
-    case 5:
-      deform_run(face, pose, positions, run, 5, then, NULL, at);
-      break;
-    case 6:
-      deform_run(face, pose, positions, run, 6, then, NULL, at);
-      break;
-    case 7:
-      deform_run(face, pose, positions, run, 7, then, NULL, at);
-      break;
-    case 8:
-      deform_run(face, pose, positions, run, 8, then, NULL, at);
-      break;
-    case 9:
-      deform_run(face, pose, positions, run, 9, then, NULL, at);
-      break;
-    case 10:
-      deform_run(face, pose, positions, run, 10, then, NULL, at);
-      break;
-#endif
 #endif
     default:
       deform_run(face, pose, positions, run, run->point_count, then, NULL, at);
