@@ -31,6 +31,7 @@ import { exposeInspection } from './ui/page/inspect.ts';
 import { makeLayout } from './ui/page/layout.ts';
 import { keySheetButton } from './ui/page/key_sheet.ts';
 import { languageSelect } from './ui/page/language.ts';
+import { noFaceNotice } from './ui/animate/no_face_notice.ts';
 import { LevelsPanel } from './ui/animate/levels_panel.ts';
 import { LiveOverlay } from './ui/live/live_overlay.ts';
 import { LiveModel } from './ui/live/live_model.ts';
@@ -122,7 +123,7 @@ function main(root: HTMLElement, session: Session | null, theme: HTMLElement): v
   window.addEventListener('pagehide', ({ persisted }) => {
     if (!persisted) speech.leave();
   });
-  animate.element.prepend(speak.element); // what everybody wants first of a head: that it talks
+  animate.element.prepend(noFaceNotice(studio), speak.element); // what everybody wants first of a head: that it talks
   animate.element.append(clip.element, new LevelsPanel(studio, fit, scene).element);
   const shelf = new Shelf(studio);
   const fitPanel = new FitPanel(studio, points, fit, parametrizer);

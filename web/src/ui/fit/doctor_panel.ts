@@ -169,7 +169,7 @@ function remarks({ warnings = [] }: Model): HTMLElement | null {
   return h(
     'div',
     { class: 'remarks small' },
-    h('h3', {}, t('Warnings of the file and its points')),
+    h('h3', {}, t('Notes on the file and its points')),
     h(
       'ul',
       {},
