@@ -144,6 +144,8 @@ describe('code to copy', () => {
       return opened;
     };
     // What can do nothing yet says why, and leads to what helps.
+    const { recordings } = (await (await fetch(`${server.url}/v1/recordings`)).json()) as { recordings: { id: string }[] };
+    for (const { id } of recordings) await fetch(`${server.url}/v1/recordings/${id}`, { method: 'DELETE' });
     let dialog = await open('recording');
     await dialog.getByText('Nothing has been recorded yet.').waitFor();
     await dialog.getByRole('button', { name: 'Record in the Live tab' }).click();
