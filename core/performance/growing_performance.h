@@ -7,9 +7,9 @@
 
 namespace semblante {
 
-/// A performance that is made while it is played: parts are added at its end. The face at a time is the one of all parts
-/// in one script. What has been shown stays as it was: where a part's first cues would change how the cues before them
-/// end, and that has been shown already, the part begins later. One thread.
+/// A performance that is made while it is played: parts are added at its end. The face at a time is the one of all
+/// parts in one script. What has been shown stays as it was: where a part's first cues would change how the cues before
+/// them end, and that has been shown already, the part begins later. One thread.
 class GrowingPerformance {
  public:
   /// Adds a part that lasts `length` ms from `lead` on its own clock; cues before `lead` overlap with the part before.

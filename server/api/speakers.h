@@ -11,8 +11,8 @@
 
 namespace semblante::api {
 
-/// The threads that make the rest of a text which a stream already says. Of all of them only so many voices speak at the
-/// same time; the others wait for their turn, sentence by sentence. Any thread.
+/// The threads that make the rest of a text which a stream already says. Of all of them only so many voices speak at
+/// the same time; the others wait for their turn, sentence by sentence. Any thread.
 class Speakers {
  public:
   /// A rest that is being made at the same time as others.

@@ -110,7 +110,7 @@ class InProcessHub : public StreamHub {
   std::map<std::string, std::shared_ptr<Stream>, std::less<>> streams_;
   std::map<std::string, std::shared_ptr<Playing>, std::less<>> playing_;   ///< by stream
   std::map<std::string, std::shared_ptr<Playing>, std::less<>> fillings_;  ///< by stream: its own filling
-  std::map<std::string, PlayStatus, std::less<>> failed_;  ///< by stream: its last play, if that failed
+  std::map<std::string, PlayStatus, std::less<>> failed_;                  ///< by stream: its last play, if that failed
   std::uint64_t last_play_ = 0;
   StreamCounts gone_;  ///< sum of the counts of streams that have ended
   std::thread thread_;

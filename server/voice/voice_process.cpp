@@ -96,8 +96,7 @@ std::string installed(const char* name) {
 std::string installed_voice() { return installed(usual_name); }
 std::string installed_sound_reader() { return installed(sound_reader_name); }
 
-Result<Utterance> speak(const VoiceProgram& program, const VoiceRequest& request,
-                        const std::function<bool()>& wanted) {
+Result<Utterance> speak(const VoiceProgram& program, const VoiceRequest& request, const std::function<bool()>& wanted) {
   if (const auto checked = check(request); !checked) return checked.error();
   auto answer = ask(program, request, wanted);
   if (!answer) return answer.error();

@@ -28,6 +28,7 @@ const stream = (id: string, more: Partial<StreamInfo> = {}): StreamInfo => ({
   clamped_values: 0,
   viseme_share: null,
   playing: null,
+  failed: null,
   ...more,
 });
 
@@ -39,6 +40,8 @@ const playing = (more: Partial<Playing> = {}): Playing => ({
   position: 0,
   fps: 25,
   loop: false,
+  complete: true,
+  failure: null,
   ...more,
 });
 

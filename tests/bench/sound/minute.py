@@ -7,6 +7,7 @@ Starts a server, has a stream say the text, and counts the WebSocket payloads an
 sound, and of one with a voice of its own, until the talk ends."""
 
 import base64
+import contextlib
 import http.client
 import json
 import os
@@ -63,48 +64,65 @@ class Subscriber(threading.Thread):
             if head[0] & 15 != 2 or not payload or payload[0] in (2, 5):
                 continue
             kind = {10: "sound", 11: "text"}.get(payload[0], "face")
+            if kind == "sound":
+                self.heard()
             self.bytes[kind] += header + size
             self.messages[kind] += 1
 
 
+    def heard(self):
+        """A packet of sound has come."""
+
+
+class Server:
+    """A server of its own; close() ends it."""
+
+    def __init__(self, program):
+        self.port = free_port()
+        self.data = tempfile.TemporaryDirectory()
+        self.process = subprocess.Popen([program, "serve", "--port", str(self.port), "--data", self.data.name],
+                                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        for _ in range(600):
+            with contextlib.suppress(OSError):
+                if ask(self.port, "GET", "/readyz")[0] == 200:
+                    return
+            time.sleep(0.1)
+
+    def close(self):
+        self.process.terminate()
+        self.process.wait()
+        self.data.cleanup()
+
+
+def text_of(path):
+    return re.sub(r"\s+", " ", pathlib.Path(path).read_text()).strip()
+
+
 def main(program, text):
-    port = free_port()
-    with tempfile.TemporaryDirectory() as data:
-        server = subprocess.Popen([program, "serve", "--port", str(port), "--data", data], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        try:
-            for _ in range(600):
-                try:
-                    if ask(port, "GET", "/readyz")[0] == 200:
-                        break
-                except OSError:
-                    pass
-                time.sleep(0.1)
-            assert ask(port, "POST", "/v1/streams", {"name": "talk"})[0] == 201
-            subscribers = [Subscriber(port), Subscriber(port, sound=True), Subscriber(port, text=True)]
-            for one in subscribers:
-                one.start()
-            begun = time.monotonic()
-            status, playing = ask(port, "POST", "/v1/streams/talk/speech", {"text": text, "language": "en", "seed": 7})
-            assert status == 202, playing
-            answered = time.monotonic() - begun
-            seconds = playing["duration"] / 1000
-            while ask(port, "GET", "/v1/streams/talk")[1].get("playing"):
-                time.sleep(0.5)
-            without, both, reader = subscribers
-            assert without.bytes["sound"] == without.bytes["text"] == both.bytes["text"] == reader.bytes["sound"] == 0
-            print(f"{seconds:.1f} s of talk; the request was answered after {answered * 1000:.0f} ms")
-            print("| a minute of talk | messages | bytes | kbit/s |\n|---|---|---|---|")
-            rows = [("face", without.messages["face"], without.bytes["face"]), ("sound", both.messages["sound"], both.bytes["sound"]),
-                    ("both", sum(both.messages.values()), sum(both.bytes.values())),
-                    ("text alone", sum(reader.messages.values()), sum(reader.bytes.values()))]
-            for name, messages, count in rows:
-                print(f"| {name} | {messages * 60 / seconds:.0f} | {count * 60 / seconds:.0f} | {count * 8 / seconds / 1000:.2f} |")
-            said = len(text.encode()) * 8 / seconds
-            print(f"of the text alone: {reader.messages['text']} sentences, {reader.bytes['text']} bytes; the letters themselves take {said:.0f} bit/s")
-        finally:
-            server.terminate()
-            server.wait()
+    with contextlib.closing(Server(program)) as server:
+        port = server.port
+        assert ask(port, "POST", "/v1/streams", {"name": "talk"})[0] == 201
+        subscribers = [Subscriber(port), Subscriber(port, sound=True), Subscriber(port, text=True)]
+        for one in subscribers:
+            one.start()
+        status, playing = ask(port, "POST", "/v1/streams/talk/speech", {"text": text, "language": "en", "seed": 7})
+        assert status == 202, playing
+        while playing:
+            seconds = playing["duration"] / 1000  # of what has been made
+            time.sleep(0.5)
+            playing = ask(port, "GET", "/v1/streams/talk")[1]["playing"]
+        without, both, reader = subscribers
+        assert without.bytes["sound"] == without.bytes["text"] == both.bytes["text"] == reader.bytes["sound"] == 0
+        print(f"{seconds:.1f} s of talk")
+        print("| a minute of talk | messages | bytes | kbit/s |\n|---|---|---|---|")
+        rows = [("face", without.messages["face"], without.bytes["face"]), ("sound", both.messages["sound"], both.bytes["sound"]),
+                ("both", sum(both.messages.values()), sum(both.bytes.values())),
+                ("text alone", sum(reader.messages.values()), sum(reader.bytes.values()))]
+        for name, messages, count in rows:
+            print(f"| {name} | {messages * 60 / seconds:.0f} | {count * 60 / seconds:.0f} | {count * 8 / seconds / 1000:.2f} |")
+        said = len(text.encode()) * 8 / seconds
+        print(f"of the text alone: {reader.messages['text']} sentences, {reader.bytes['text']} bytes; the letters themselves take {said:.0f} bit/s")
 
 
 if __name__ == "__main__":
-    main(sys.argv[1], re.sub(r"\s+", " ", pathlib.Path(sys.argv[2] if len(sys.argv) > 2 else TEXT).read_text()).strip())
+    main(sys.argv[1], text_of(sys.argv[2] if len(sys.argv) > 2 else TEXT))

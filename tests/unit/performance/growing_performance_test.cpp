@@ -30,12 +30,24 @@ PerformanceScript random_part(std::mt19937& chance, double length) {
     cue.value = between(0.0, 1.0);
     const auto number = static_cast<std::uint8_t>(chance() % 3 + 1);
     switch (chance() % 6) {
-      case 0: cue.target = VisemeTarget{number, 0}; break;
-      case 1: cue.target = ExpressionTarget{number}; break;
-      case 2: cue.target = HeadTarget{between(-3.0, 3.0), between(-3.0, 3.0), 0.0}; break;
-      case 3: cue.target = LookTarget{between(-9.0, 9.0), between(-9.0, 9.0)}; break;
-      case 4: cue.target = BlinkTarget{}; break;
-      default: cue.target = FapTarget{static_cast<std::uint8_t>(30 + number)}; cue.value *= 90.0;
+      case 0:
+        cue.target = VisemeTarget{number, 0};
+        break;
+      case 1:
+        cue.target = ExpressionTarget{number};
+        break;
+      case 2:
+        cue.target = HeadTarget{between(-3.0, 3.0), between(-3.0, 3.0), 0.0};
+        break;
+      case 3:
+        cue.target = LookTarget{between(-9.0, 9.0), between(-9.0, 9.0)};
+        break;
+      case 4:
+        cue.target = BlinkTarget{};
+        break;
+      default:
+        cue.target = FapTarget{static_cast<std::uint8_t>(30 + number)};
+        cue.value *= 90.0;
     }
     if (i % 5 == 0) cue.attack = cue.release = std::nullopt;
     part.cues.push_back(std::move(cue));

@@ -307,7 +307,9 @@ std::vector<SoundPacket> tones_at(const std::vector<double>& times, double durat
   auto coder = voice::SoundCoder::make();
   EXPECT_TRUE(coder && coder->add(samples, 24'000));
   std::vector<SoundPacket> sound;
-  for (auto& coded : *coder->code(duration)) sound.push_back({first_time + coded.time, std::move(coded.packet)});
+  const auto packets = coder->code(duration);
+  EXPECT_TRUE(packets);
+  for (const auto& coded : *packets) sound.push_back({first_time + coded.time, coded.packet});
   return sound;
 }
 

@@ -733,7 +733,7 @@ export interface paths {
         put?: never;
         /**
          * The face of the stream says a text, or a stored speech, from now on
-         * @description As a performance: while it speaks it is the stream's one source. Its sound is heard by the subscribers that asked for sound (protocol/SPEC.md, 2.1); the sound of a stored speech is also at its own address. Recordings of the stream keep it.
+         * @description As a performance: while it speaks it is the stream's one source. A text is made sentence by sentence: the first plays while the others are made (`complete` is false), so a long text begins as soon as a short one; SSML begins when all of it has been made. If the voice is slower than its own speech, the face rests between sentences until the next one is there. Errors of the first sentence are the answer of this request; if a later one cannot be made, the play ends with what was made, and `failure` of it says why, at its address and as `failed` of the stream until another play begins. Stopping or replacing it ends the making, too. Its sound is heard by the subscribers that asked for sound (protocol/SPEC.md, 2.1); the sound of a stored speech is also at its own address. Recordings of the stream keep it.
          */
         post: operations["speakIntoStream"];
         delete?: never;
@@ -2117,6 +2117,8 @@ export interface components {
             /** @description null: clients take that of rig.json */
             viseme_share: number | null;
             playing: components["schemas"]["Playing"] | null;
+            /** @description The last play, if it ended early because the rest of it could not be made; until another begins */
+            failed: components["schemas"]["Playing"] | null;
         };
         Recording: {
             id: string;
@@ -2181,12 +2183,16 @@ export interface components {
             /** @enum {unknown} */
             kind: "performance" | "fap" | "recording";
             name: string;
-            /** @description ms; null: it has no end */
+            /** @description ms; null: it has no end; of one that is not complete: of what there is */
             duration: number | null;
             /** @description ms */
             position: number;
             fps: number;
             loop: boolean;
+            /** @description false: more of it is being made while it plays */
+            complete: boolean;
+            /** @description Why it ends before all of it is said; null: it does not */
+            failure: string | null;
         };
         /** @description With cues, idle or both. protocol/schema/performance.schema.json has every rule */
         Performance: {
@@ -4547,7 +4553,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description It plays */
+            /** @description It plays, or is the stream's last play and has failed */
             200: {
                 headers: {
                     [name: string]: unknown;

@@ -1,0 +1,217 @@
+// A stream says the first sentences of a text while a voice speaks the others: what a subscriber gets at the joints,
+// and what becomes of a voice that is late, fails or is not wanted any more.
+
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "protocol/cpp/json_codec.h"
+#include "protocol/cpp/opus_packet.h"
+#include "tests/integration/server/model_flow.h"
+#include "tests/support/wait.h"
+
+namespace semblante::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using ::testing::HasSubstr;
+
+const Fields json_type = {{"Content-Type", "application/json"}};
+constexpr const char* troubled_voice = SEMBLANTE_SOURCE_DIR "/tests/integration/server/troubled_voice.py";
+const std::string first = "A sentence that is long enough to be a part. ";
+
+/// Of the server's, with the voice's program in their command line.
+std::size_t voices_of(pid_t server) {
+  std::size_t count = 0;
+  for (const auto& entry : fs::directory_iterator("/proc")) {
+    std::ifstream stat(entry.path() / "stat"), command(entry.path() / "cmdline");
+    std::string pid, name, state, parent;
+    stat >> pid >> name >> state >> parent;
+    const std::string line{std::istreambuf_iterator<char>(command), {}};
+    count += parent == std::to_string(server) && line.find(troubled_voice) != std::string::npos ? 1 : 0;
+  }
+  return count;
+}
+
+/// What a subscriber with sound gets.
+struct Heard {
+  std::vector<std::uint64_t> frames;  ///< media times, ms
+  std::vector<SoundPacket> sound;
+  /// Where a packet does not begin at the end of the one before it: by how much later, ms. What is no voice to the
+  /// coder is not sent, so there are some also within a part.
+  [[nodiscard]] std::vector<double> gaps() const {
+    std::vector<double> gaps;
+    for (std::size_t i = 1; i < sound.size(); ++i) {
+      const double gap = static_cast<double>(sound[i].media_time - sound[i - 1].media_time) -
+                         opus_packet_ms(sound[i - 1].packet).value_or(0.0);
+      if (gap != 0.0) gaps.push_back(gap);
+    }
+    return gaps;
+  }
+  [[nodiscard]] double sound_ms() const {
+    return sound.empty() ? 0.0
+                         : static_cast<double>(sound.back().media_time - sound.front().media_time) +
+                               opus_packet_ms(sound.back().packet).value_or(0.0);
+  }
+  /// Whether the frames are those of one clock, 25 a second. A busy machine leaves some out.
+  [[nodiscard]] bool one_clock() const {
+    return std::all_of(frames.begin(), frames.end(), [&](auto time) {
+      const auto phase = (time - frames.front()) % 40U;
+      return phase <= 1U || phase == 39U;  // times are rounded
+    });
+  }
+};
+
+class LiveSpeech : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    server_ = std::make_unique<ServerProcess>(folder_.path() / "data",
+                                              std::vector<std::string>{"--voice-program", troubled_voice});
+    ASSERT_EQ(ask("POST", "/v1/streams", R"({"name":"talk","batch_interval":0})").status, 201);
+    listener_ = std::make_unique<WebSocket>(server_->port(), "/v1/streams/talk", "semblante.v1.json");
+    listener_->send_text(R"({"type":"hello","version":1,"sound":true})");
+    ASSERT_TRUE(listener_->receive());
+  }
+  [[nodiscard]] Reply ask(const std::string& method, const std::string& target, const std::string& body = {}) const {
+    return request(server_->port(), method, target, body, body.empty() ? Fields{} : json_type);
+  }
+  [[nodiscard]] Reply say(const std::string& text, bool take_over = false) const {
+    return ask("POST", "/v1/streams/talk/speech",
+               json{{"text", text}, {"language", "en"}, {"take_over", take_over}}.dump());
+  }
+  [[nodiscard]] json stream() const { return json_of(ask("GET", "/v1/streams/talk")); }
+  void wait_until_it_is_silent() const {
+    EXPECT_TRUE(testing::eventually([&] { return stream()["playing"].is_null(); }));
+  }
+  /// Until `enough`, or the end of the stream.
+  template <class Enough>
+  void listen(Enough enough) {
+    while (!enough()) {
+      const auto text = listener_->receive();
+      ASSERT_TRUE(text);
+      const auto message = decode_json(*text);
+      ASSERT_TRUE(message) << *text;
+      if (const auto* sound = std::get_if<SoundPacket>(&*message)) heard_.sound.push_back(*sound);
+      if (const auto* frames = std::get_if<Frames>(&*message)) {
+        for (const auto& frame : frames->frames) heard_.frames.push_back(frames->media_time + frame.time);
+      }
+      if (std::holds_alternative<End>(*message)) return;
+    }
+  }
+  void listen_to_the_end() {
+    wait_until_it_is_silent();
+    ASSERT_EQ(ask("DELETE", "/v1/streams/talk").status, 204);
+    listen([] { return false; });
+  }
+
+  TemporaryFolder folder_;
+  std::unique_ptr<ServerProcess> server_;
+  std::unique_ptr<WebSocket> listener_;
+  Heard heard_;
+};
+
+TEST_F(LiveSpeech, FirstSentence_IsHeard_HoweverLateTheNextIs) {
+  const auto answer = say(first + "This one is never there.");
+  ASSERT_EQ(answer.status, 202) << answer.body;
+  EXPECT_EQ(json_of(answer)["complete"], false);
+  const auto duration = json_of(answer)["duration"].get<double>();
+  // The face goes on living, and the play does not end.
+  listen([&] {
+    return !heard_.frames.empty() &&
+           static_cast<double>(heard_.frames.back() - heard_.frames.front()) > duration + 500.0;
+  });
+  EXPECT_GT(heard_.sound_ms(), duration / 2.0);
+  EXPECT_TRUE(heard_.one_clock());
+  const auto playing = stream()["playing"];
+  EXPECT_EQ(playing["complete"], false);
+  EXPECT_EQ(playing["failure"], nullptr);
+
+  EXPECT_EQ(voices_of(server_->pid()), 1U);
+  EXPECT_EQ(ask("DELETE", answer.headers.at("location")).status, 204);
+  EXPECT_TRUE(testing::eventually([&] { return voices_of(server_->pid()) == 0; })) << "nobody hears it any more";
+  EXPECT_EQ(stream()["failed"], nullptr) << "who stops it knows";
+  EXPECT_EQ(say("It speaks again.").status, 202);
+}
+
+TEST_F(LiveSpeech, Joints_AreHeardAsInTheWhole) {
+  const std::string text = first + "[joy]Another one that is just as long, and glad.[/joy] And the last of the three.";
+  const auto whole = json_of(ask("POST", "/v1/speeches", json{{"text", text}, {"language", "en"}}.dump()));
+  ASSERT_EQ(say(text).status, 202);
+  EXPECT_TRUE(testing::eventually([&] { return stream()["playing"].value("complete", true); }));
+  const auto playing = stream()["playing"];
+  ASSERT_FALSE(playing.is_null());
+  EXPECT_NEAR(playing["duration"].get<double>(), whole["duration"].get<double>(), 3 * 10.0) << "10 ms for each part";
+  listen_to_the_end();
+  for (const double gap : heard_.gaps()) EXPECT_GE(gap, 0.0) << "no packet begins before the one before it ends";
+  EXPECT_TRUE(heard_.one_clock()) << "through the joints";
+}
+
+TEST_F(LiveSpeech, LateSentence_IsWaitedFor_AndWhole) {
+  // The first part is long to read and short to say.
+  ASSERT_EQ(say("Oh - - - - - - - - - - - - - - - - - - - - - -. Here is the late one.").status, 202);
+  EXPECT_EQ(say("Soon.").status, 409);
+  listen_to_the_end();
+  EXPECT_TRUE(heard_.one_clock()) << "the face goes on";
+  const auto gaps = heard_.gaps();
+  ASSERT_GE(gaps.size(), 1U);
+  EXPECT_GT(*std::max_element(gaps.begin(), gaps.end()), 1000.0) << "the voice was late";
+  double sound = 0.0;
+  for (const auto& packet : heard_.sound) sound += opus_packet_ms(packet.packet).value_or(0.0);
+  EXPECT_GT(sound, 10 * 90.0);
+}
+
+TEST_F(LiveSpeech, SentenceThatFails_EndsThePlay_AndIsSaid) {
+  const auto answer = say(first + "But this one is broken, and will not be heard. " + first);
+  ASSERT_EQ(answer.status, 202);
+  const auto duration = json_of(answer)["duration"].get<double>();
+  wait_until_it_is_silent();
+  EXPECT_TRUE(testing::eventually([&] { return !stream()["failed"].is_null(); }));
+  const auto failed = stream()["failed"];
+  EXPECT_EQ(failed["id"], json_of(answer)["id"]);
+  EXPECT_THAT(failed["failure"].get<std::string>(), HasSubstr("the string is torn"));
+  EXPECT_EQ(failed["duration"], duration);
+  EXPECT_EQ(json_of(ask("GET", answer.headers.at("location"))), failed);
+  EXPECT_EQ(say("[joy]" + std::string("broken[/joy]")).status, 502) << "of the first part at once";
+  ASSERT_EQ(say("It is whole.").status, 202);
+  EXPECT_EQ(stream()["failed"], nullptr);
+  EXPECT_EQ(ask("GET", answer.headers.at("location")).status, 404);
+}
+
+TEST_F(LiveSpeech, Replaced_InTheMiddle_TheOtherIsHeard) {
+  ASSERT_EQ(say(first + "This one is never there.").status, 202);
+  listen([&] { return heard_.sound_ms() > 500.0; });
+  const auto answer = say(first + "And more of it.", true);
+  ASSERT_EQ(answer.status, 202) << answer.body;
+  EXPECT_TRUE(testing::eventually([&] { return voices_of(server_->pid()) == 0; }));
+  EXPECT_TRUE(testing::eventually([&] { return stream()["playing"].value("complete", true); }));
+  EXPECT_EQ(stream()["playing"]["id"], json_of(answer)["id"]);
+  const auto before = heard_.sound_ms();
+  listen_to_the_end();
+  EXPECT_GT(heard_.sound_ms(), before + 3000.0);
+}
+
+TEST_F(LiveSpeech, Stop_OfTheServer_DoesNotWaitForAVoice) {
+  ASSERT_EQ(say(first + "This one is never there.").status, 202);
+  EXPECT_EQ(server_->end(SIGTERM), 0);
+}
+
+TEST_F(LiveSpeech, StoredSpeech_BeginsBeforeItsSoundIsCoded) {
+  std::string text;
+  for (int i = 0; i < 200; ++i) text += "Mamma mia! ";
+  const auto stored = json_of(ask("POST", "/v1/speeches", json{{"text", text}, {"language", "en"}}.dump()));
+  const auto answer = ask("POST", "/v1/streams/talk/speech", json{{"speech", stored["id"]}}.dump());
+  ASSERT_EQ(answer.status, 202) << answer.body;
+  EXPECT_EQ(json_of(answer)["duration"], stored["duration"]) << "the face is whole";
+  EXPECT_EQ(json_of(answer)["complete"], false) << "200 s of sound take a second or two to code";
+  listen([&] { return heard_.sound_ms() > 4000.0; });
+}
+
+}  // namespace
+}  // namespace semblante::test
