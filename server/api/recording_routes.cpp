@@ -106,6 +106,7 @@ answer::Recording represent(const RecordingStatus& recording) {
           .epoch = r.epoch,
           .media_time = r.frames > 0 ? std::optional(r.media_time) : std::nullopt,
           .max_duration = r.max_duration,
+          .sound = r.sound_packets ? std::optional(*r.sound_packets > 0) : std::nullopt,
           .links = {.self = self,
                     .stop = runs ? std::optional(self + "/stop") : std::nullopt,
                     .content = self + "/content",

@@ -19,6 +19,7 @@ void take_over(store::RecordingRecord& record, const RecordingProgress& progress
   record.lost = progress.lost;
   record.bytes = progress.bytes;
   record.media_time = progress.media_time;
+  record.sound_packets = progress.sound_packets;
 }
 
 }  // namespace

@@ -235,6 +235,8 @@ struct RecordingRecord {
   std::uint64_t media_time = 0;               ///< of the first frame
   std::optional<std::uint64_t> max_duration;  ///< ms; the recording ends by itself after it
   std::string owner = {};                     ///< see Origin; never changes
+  /// nullopt: of a server that did not count them
+  std::optional<std::uint64_t> sound_packets = 0;
 
   bool operator==(const RecordingRecord&) const = default;
 };

@@ -7,7 +7,7 @@ namespace {
 
 constexpr const char* columns =
     "SELECT id, stream, name, model, created, state, ended, duration, frames, lost, bytes, epoch, media_time, "
-    "max_duration, owner FROM recordings ";
+    "max_duration, owner, sound_packets FROM recordings ";
 
 RecordingRecord read_recording(const Statement& row) {
   const auto number = [&row](int column) { return static_cast<std::uint64_t>(row.integer(column)); };
@@ -27,15 +27,16 @@ RecordingRecord read_recording(const Statement& row) {
   recording.media_time = number(12);
   if (!row.is_null(13)) recording.max_duration = number(13);
   recording.owner = row.text(14);
+  recording.sound_packets = row.is_null(15) ? std::nullopt : std::optional(number(15));
   return recording;
 }
 
 }  // namespace
 
 void insert_recording(Database& db, const RecordingRecord& r) {
-  Statement(db, "INSERT INTO recordings VALUES(NULL,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)")
+  Statement(db, "INSERT INTO recordings VALUES(NULL,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)")
       .bind(r.id, r.stream, r.name, r.model, r.created, static_cast<int>(r.state), r.ended, r.duration, r.frames,
-            r.lost, r.bytes, r.epoch, r.media_time, r.max_duration, r.owner)
+            r.lost, r.bytes, r.epoch, r.media_time, r.max_duration, r.owner, r.sound_packets)
       .run();
 }
 
@@ -71,9 +72,9 @@ std::optional<std::vector<RecordingRecord>> list_recordings(Database& db, std::s
 
 void write_recording(Database& db, const RecordingRecord& r) {
   Statement(db,
-            "UPDATE recordings SET state = ?, ended = ?, duration = ?, frames = ?, lost = ?, bytes = ?, media_time = ? "
-            "WHERE id = ?")
-      .bind(static_cast<int>(r.state), r.ended, r.duration, r.frames, r.lost, r.bytes, r.media_time, r.id)
+            "UPDATE recordings SET state = ?, ended = ?, duration = ?, frames = ?, lost = ?, bytes = ?, media_time = ?, "
+            "sound_packets = ? WHERE id = ?")
+      .bind(static_cast<int>(r.state), r.ended, r.duration, r.frames, r.lost, r.bytes, r.media_time, r.sound_packets, r.id)
       .run();
 }
 

@@ -159,6 +159,7 @@ constexpr std::array migrations = {
     with_tokens,
     with_owners,
     with_speeches,
+    "ALTER TABLE recordings ADD COLUMN sound_packets INTEGER",
 };
 constexpr int schema_version = migrations.size();
 

@@ -44,6 +44,7 @@ TEST_F(StoreTest, Recordings_StayWhenTheirStreamGoes) {
   first.lost = 3;
   first.bytes = 9000;
   first.media_time = 777;
+  first.sound_packets = 40;
   store_->finish_recording(first);
   reopen();
   EXPECT_EQ(store_->recording("r1"), first);

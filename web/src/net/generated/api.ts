@@ -2152,6 +2152,8 @@ export interface components {
             media_time: number | null;
             /** @description ms */
             max_duration: number | null;
+            /** @description Whether it has sound, which `format=opus` of its content gives. null: the server that recorded it did not count */
+            sound: boolean | null;
             links: {
                 self: string;
                 /** @description null: it has ended */

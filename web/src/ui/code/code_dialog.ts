@@ -9,7 +9,7 @@ import type { LiveModel } from '../live/live_model.ts';
 import { showDialog } from '../shared/dialog.ts';
 import { h, redraw, replace, setText } from '../shared/dom.ts';
 import { icon } from '../shared/icons.ts';
-import { recordingFormats } from '../shared/recording_formats.ts';
+import { formatsOf } from '../shared/recording_formats.ts';
 import { needsFace } from '../shared/needs_face.ts';
 import type { Studio } from '../shared/studio.ts';
 import type { FaceDriver } from '../stage/face_driver.ts';
@@ -172,7 +172,9 @@ class CodeDialog {
       );
     }
     const names = this.recordings.map(({ id, name }) => h('option', { value: id, selected: id === this.recording }, name));
-    const formats = recordingFormats.map(([format, name]) => h('option', { value: format, selected: format === this.format }, name));
+    const possible = formatsOf(this.recordings.find(({ id }) => id === this.recording)?.sound ?? null);
+    if (!possible.some(([format]) => format === this.format)) this.format = possible[0]![0];
+    const formats = possible.map(([format, name]) => h('option', { value: format, selected: format === this.format }, name));
     return [
       this.select('recording', t('Recording'), names, (value) => (this.recording = value)),
       ...(this.language === 'C' ? [] : [this.select('format', t('Format'), formats, (value) => (this.format = value as RecordingFormat))]),

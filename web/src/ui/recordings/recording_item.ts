@@ -2,7 +2,7 @@ import type { Recording, RecordingFormat } from '../../net/types.ts';
 import { h, setText } from '../shared/dom.ts';
 import { formatBytes, formatCount, formatTime } from '../shared/format.ts';
 import { icon } from '../shared/icons.ts';
-import { recordingFormats } from '../shared/recording_formats.ts';
+import { formatsOf } from '../shared/recording_formats.ts';
 import { language, t } from '../../words/words.ts';
 
 /** Why a recording ended, when no client stopped it. */
@@ -96,7 +96,7 @@ export function recordingItem(recording: Recording, sight: RecordingSight, acts:
 }
 
 function details(recording: Recording, sight: RecordingSight, acts: RecordingActs, empty: boolean): HTMLElement {
-  const { id, name, duration } = recording;
+  const { id, name, duration, sound } = recording;
   const clock = h('span', { class: 'number' });
   const seek = h('input', {
     type: 'range',
@@ -127,7 +127,7 @@ function details(recording: Recording, sight: RecordingSight, acts: RecordingAct
     h(
       'div',
       { class: 'row wrap', role: 'group', 'aria-label': t('Download {name} as', { name }) },
-      recordingFormats.map(([format, title, meaning]) => {
+      formatsOf(sound).map(([format, title, meaning]) => {
           const button = h(
             'button',
             {

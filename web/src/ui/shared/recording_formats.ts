@@ -10,3 +10,7 @@ export const recordingFormats: readonly [RecordingFormat, string, string][] = [
   ['opus', t('Sound'), t('The sound, Ogg/Opus, on the clock of the GLB clip')],
   ['frames-json', t('Frames'), t('Every frame, JSON')],
 ];
+
+/** Those in which a recording can be saved; `sound`: null when the server does not know. */
+export const formatsOf = (sound: boolean | null): typeof recordingFormats =>
+  recordingFormats.filter(([format]) => format !== 'opus' || sound !== false);
