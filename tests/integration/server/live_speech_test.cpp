@@ -210,7 +210,7 @@ TEST_F(LiveSpeech, Recording_SaysWhetherItHasSound) {
   const auto silent = record();
   ASSERT_EQ(
       ask("POST", "/v1/streams/talk/frames", R"({"frames":[{"expression":{"select1":1,"intensity1":40}}]})").status,
-      200);
+      202);
   EXPECT_EQ(json_of(ask("POST", silent + "/stop"))["sound"], false);
   EXPECT_EQ(ask("GET", spoken + "/content?format=opus").status, 200);
   EXPECT_EQ(ask("GET", silent + "/content?format=opus").status, 409);
