@@ -12,6 +12,7 @@ namespace {
 struct Session {
   semblante_stream* stream = nullptr;
   semblante_player* player = nullptr;
+  semblante_speaker* speaker = nullptr;
   double now = 1000;
 
   explicit Session(std::uint8_t flags) {
@@ -22,6 +23,7 @@ struct Session {
     options.batch = (flags & 4U) != 0 ? 100 : 0;
     options.seed = 1;
     options.sound = flags >> 6U & 1U;
+    options.text = flags >> 7U & 1U;
     must(semblante_stream_create(&options, &stream, nullptr) == SEMBLANTE_OK);
     semblante_player_options showing{};
     showing.size = sizeof(showing);
@@ -30,12 +32,29 @@ struct Session {
     showing.max_frames = (flags & 32U) != 0 ? 16 : 0;
     must(semblante_player_create(&showing, &player, nullptr) == SEMBLANTE_OK);
     must(semblante_player_follow(player, stream) == SEMBLANTE_OK);
+    must(semblante_speaker_create(1, &speaker, nullptr) == SEMBLANTE_OK);
   }
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
   ~Session() {
     semblante_stream_destroy(stream);
     semblante_player_destroy(player);
+    semblante_speaker_destroy(speaker);
+  }
+
+  /// A voice that says each text, and tells words that the text may not have.
+  void speak(const semblante_event& event) {
+    must(semblante_speaker_say(speaker, event.packet, event.packet_size, event.packet_size % 3, now) == SEMBLANTE_OK);
+    for (std::uint32_t word = 0; word < 4; ++word) {
+      semblante_speaker_reach(speaker, word * word, now + 100.0 * word);
+      semblante_frame frame{};
+      semblante_speaker_show(speaker, now + 110.0 * word, &frame);
+      must(frame.viseme1 <= 14 && frame.viseme2 <= 14 && frame.viseme_blend <= 63 && frame.expression1 <= 6 &&
+           frame.intensity1 <= 63 && frame.expression2 <= 6 && frame.intensity2 <= 63);
+      must_be_finite(frame.fap);
+    }
+    semblante_speaker_end(speaker, now + 500.0);
+    semblante_stream_spoken(stream, event.packet_size % 5, event.sequence, event.packet_size, now);
   }
 
   void take_events() {
@@ -44,11 +63,15 @@ struct Session {
     int count = 0;
     while (semblante_stream_next_event(stream, &event) != 0) {
       must(++count <= 64);
-      must(event.type > SEMBLANTE_EVENT_NONE && event.type <= SEMBLANTE_EVENT_SOUND &&
+      must(event.type > SEMBLANTE_EVENT_NONE && event.type <= SEMBLANTE_EVENT_TEXT &&
            event.state <= SEMBLANTE_STREAM_WAITING);
       must(std::isfinite(event.media_time) && std::isfinite(event.round_trip) && std::isfinite(event.server_offset));
-      must((event.type == SEMBLANTE_EVENT_SOUND) == (event.packet != nullptr));
-      must(event.packet_size <= 4000 && event.duration >= 0 && event.duration <= 120);
+      const bool is_text = event.type == SEMBLANTE_EVENT_TEXT;
+      must(event.type != SEMBLANTE_EVENT_SOUND || (event.packet != nullptr && event.duration <= 120));
+      must(event.type == SEMBLANTE_EVENT_SOUND || is_text || event.packet == nullptr);
+      must(is_text == (event.text != nullptr) && is_text == (event.language != nullptr));
+      must(event.packet_size <= 4000 && event.duration >= 0 && event.duration <= 960'000);
+      if (is_text) speak(event);
       for (std::uint32_t i = 0; i < event.packet_size; ++i) must(event.packet[i] <= 255);
       must(std::memchr(event.error.message, 0, sizeof(event.error.message)) != nullptr);
     }

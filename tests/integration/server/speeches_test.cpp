@@ -409,6 +409,44 @@ TEST_F(Speeches, WhoAsksForSound_HearsWhatTheStreamSays) {
   }
 }
 
+TEST_F(Speeches, WhoHasAVoice_GetsTheTextOfWhatTheStreamSays_AndFramesWhenItFails) {
+  start();
+  const json talk = {{"text", "Bom dia a todos. :) Tudo bem?"}, {"language", "pt-BR"}, {"seed", 7}};
+  const auto kept = json_of(say(talk));
+  for (const auto& wish : {talk, json{{"speech", kept["id"]}}}) {
+    ASSERT_EQ(ask("POST", "/v1/streams", R"({"name":"talk"})", json_type).status, 201);
+    WebSocket reader(server_->port(), "/v1/streams/talk", "semblante.v1.json");
+    WebSocket mute(server_->port(), "/v1/streams/talk", "semblante.v1.json");
+    for (auto* one : {&reader, &mute}) {
+      one->send_text(R"({"type":"hello","version":1,"text":true})");
+      EXPECT_EQ(json::parse(one->receive().value_or("{}"))["type"], "header");
+    }
+    mute.send_text(R"({"type":"spoken","state":"failed"})");
+    ASSERT_EQ(ask("POST", "/v1/streams/talk/speech", wish.dump(), json_type).status, 202);
+    for (int i = 0; i < 600 && !json_of(ask("GET", "/v1/streams/talk"))["playing"].is_null(); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    ASSERT_EQ(ask("DELETE", "/v1/streams/talk").status, 204);
+
+    std::string said;
+    std::size_t frames = 0;
+    for (const auto& message : all_messages(reader)) {
+      if (message["type"] == "frames") ++frames;
+      if (message["type"] != "text") continue;
+      EXPECT_EQ(message["language"], "pt-BR");
+      EXPECT_FALSE(message["score"].get<std::string>().empty());
+      said += message["text"].get<std::string>() + "|";
+    }
+    EXPECT_EQ(said, "Bom dia a todos.|Tudo bem?|");
+    EXPECT_LE(frames, 1U) << "what is left of the last batch";
+    std::size_t of_mute = 0;
+    for (const auto& message : all_messages(mute)) {
+      EXPECT_NE(message["type"], "text");
+      if (message["type"] == "frames") ++of_mute;
+    }
+    EXPECT_GT(of_mute, 10U);
+  }
+}
+
 TEST_F(Speeches, MouthOfTheStreamMoves) {
   start();
   ASSERT_EQ(ask("POST", "/v1/streams", R"({"name":"talk"})", json_type).status, 201);
