@@ -200,6 +200,10 @@ std::vector<SpeechText> texts_of(Context& context, const SpeechRecord& record, c
   speech.text = record.text;
   speech.utterance = *std::move(said);
   speech.performance = script;
+  speech.utterance.sentences.clear();  // of a timeline of its own the reader takes none
+  if (const auto document = read_json(file.text()))
+    for (const auto& sentence : document->value("sentences", nlohmann::json::array()))
+      speech.utterance.sentences.push_back({sentence.value("time", 0.0), sentence.value("first", std::size_t{0})});
   const auto request = read_json(record.request);
   if (request) speech.sounds = request->value("language", "");
   return voice::speech_texts(speech);

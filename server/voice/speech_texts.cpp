@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -14,8 +16,9 @@ namespace {
 
 /// Longer sentences are divided, at a word: they are said in one go by voices that some browsers stop after a quarter
 /// of a minute.
-constexpr std::size_t longest_part = 300;  ///< bytes
-constexpr std::uint8_t closed_lips = 1;    ///< the viseme of p, b, m
+constexpr std::size_t longest_part = 300;     ///< bytes
+constexpr std::size_t longest_language = 64;  ///< bytes, of a message
+constexpr std::uint8_t closed_lips = 1;       ///< the viseme of p, b, m
 /// Lips that are closed for less are not seen to close at 25 frames a second.
 constexpr std::uint32_t least_closure = 2 * score_unit;
 
@@ -56,7 +59,8 @@ std::vector<std::size_t> parts_of(const Speech& speech, const std::vector<Place>
   for (std::size_t i = 0; i < places.size(); ++i) {
     bool begins = i == 0;
     for (; sentence != sentences.end() && *sentence <= places[i].byte; ++sentence) begins = true;
-    if (i > 0 && sentences.empty())
+    // A voice may tell the first one only.
+    if (i > 0 && sentences.size() < 2)
       begins = ends_sentence(text.substr(places[i - 1].byte, places[i].byte - places[i - 1].byte));
     const std::size_t end = i + 1 < places.size() ? places[i + 1].byte : text.size();
     if (begins || end - places[parts.back()].byte > longest_part) parts.push_back(i);
@@ -126,74 +130,91 @@ class ScoreMaker {
   std::pair<std::uint8_t, std::uint8_t> shown_{0, 0};
 };
 
+/// A sentence, or a part of one.
+struct Part {
+  double begin = 0.0, end = 0.0;  ///< ms
+  std::size_t from = 0;           ///< byte of the text of the speech
+  std::string_view text;
+  std::span<const Place> places;
+};
+
+Part part_from(const Speech& speech, std::span<const Place> places, bool is_first, const Place* next) {
+  const std::string_view whole = speech.text;
+  Part part{places.front().time, next != nullptr ? next->time : speech.utterance.duration, 0, {}, places};
+  part.from = is_first ? 0 : with_opening(whole, places.front().byte);
+  const std::size_t end = next != nullptr ? with_opening(whole, next->byte) : whole.size();
+  part.text = whole.substr(part.from, end - part.from);
+  while (!part.text.empty() && is_space(part.text.back())) part.text.remove_suffix(1);
+  // A text without spaces may still be too long for a message; what is cut off is said by nobody.
+  if (part.text.size() > max_speech_text_bytes) {
+    std::size_t cut = max_speech_text_bytes;
+    while (cut > 0 && (static_cast<unsigned char>(part.text[cut]) & 0xC0U) == 0x80U) --cut;
+    part.text = part.text.substr(0, cut);
+  }
+  return part;
+}
+
+/// When each word of the part begins: with the first place in it; one in which nothing is said, with the next word.
+std::vector<double> words_of(const Part& part) {
+  std::vector<double> words;
+  auto place = part.places.begin();
+  const auto begins = word_begins(part.text);
+  for (std::size_t w = 0; w < begins.size(); ++w) {
+    const std::size_t until = part.from + (w + 1 < begins.size() ? begins[w + 1] : part.text.size());
+    words.push_back(place != part.places.end() ? place->time : part.end);
+    while (place != part.places.end() && place->byte < until) ++place;
+  }
+  return words;
+}
+
+/// `segments`: those of the part, without the pause after it, which may reach beyond it.
+SpeechScore score_of(const Part& part, std::span<const Segment> segments, const PerformanceScript& performance) {
+  ScoreMaker score(part.begin);
+  const auto words = words_of(part);
+  std::size_t word = 0;
+  for (const Segment& segment : segments) {
+    const std::uint8_t viseme = segment.is_silence() ? 0 : viseme_of(segment);
+    double time = std::max(part.begin, segment.begin);
+    const double until = std::min(part.end, segment.end);
+    const auto [expression, value] = expression_at(performance, time);
+    score.express(expression, value);
+    while (time < until) {
+      const std::size_t before = word;
+      while (word < words.size() && words[word] <= time) ++word;
+      for (std::size_t silent = before + 1; silent < word; ++silent) score.add(0, time, true);
+      const double next = word < words.size() ? std::min(until, words[word]) : until;
+      score.add(viseme, next, word > before);
+      time = next;
+    }
+  }
+  for (; word < words.size(); ++word) score.add(0, part.end, true);
+  return score.take();
+}
+
 }  // namespace
 
 std::vector<SpeechText> speech_texts(const Speech& speech) {
-  const Utterance& utterance = speech.utterance;
   const Characters characters(speech.text);
-  const auto places = places_of(utterance, characters);
+  const auto places = places_of(speech.utterance, characters);
   if (places.empty()) return {};
   const auto parts = parts_of(speech, places, characters);
-  const Loudness loudness(utterance);
-  const auto segments = segments_of(utterance, sound_table(speech.sounds), loudness);
+  const auto segments = segments_of(speech.utterance, sound_table(speech.sounds), Loudness(speech.utterance));
+  const std::string language = speech.sounds.size() <= longest_language ? speech.sounds : "";
   std::vector<SpeechText> texts;
-  std::size_t segment = 0;
+  std::size_t first = 0;
   for (std::size_t p = 0; p < parts.size(); ++p) {
-    const bool last = p + 1 == parts.size();
-    const std::size_t first_place = parts[p], end_place = last ? places.size() : parts[p + 1];
-    const double begin = places[first_place].time;
-    double end = last ? utterance.duration : places[end_place].time;
-    const std::size_t from = p == 0 ? 0 : with_opening(speech.text, places[first_place].byte);
-    std::string_view text = std::string_view(speech.text).substr(from);
-    if (!last) text = text.substr(0, with_opening(speech.text, places[end_place].byte) - from);
-    while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
-    // A text without spaces may still be too long for a message; what is cut off is said by nobody.
-    if (text.size() > max_speech_text_bytes) {
-      std::size_t cut = max_speech_text_bytes;
-      while (cut > 0 && (static_cast<unsigned char>(text[cut]) & 0xC0U) == 0x80U) --cut;
-      text = text.substr(0, cut);
-    }
-
-    // When each word of the text begins: with the first place in it; one in which nothing is said, with the next word.
-    std::vector<double> words;
-    std::size_t place = first_place;
-    const auto begins = word_begins(text);
-    for (std::size_t w = 0; w < begins.size(); ++w) {
-      const std::size_t until = w + 1 < begins.size() ? from + begins[w + 1] : from + text.size();
-      words.push_back(place < end_place ? places[place].time : end);
-      while (place < end_place && places[place].byte < until) ++place;
-    }
-
-    while (segment < segments.size() && segments[segment].end <= begin) ++segment;
-    std::size_t past = segment;
-    while (past < segments.size() && segments[past].begin < end) ++past;
-    while (past > segment && segments[past - 1].is_silence()) end = segments[--past].begin;
-
-    ScoreMaker score(begin);
-    std::size_t word = 0;
-    for (std::size_t s = segment; s < past; ++s) {
-      const std::uint8_t viseme = segments[s].is_silence() ? 0 : viseme_of(segments[s]);
-      double time = std::max(begin, segments[s].begin);
-      const double until = std::min(end, segments[s].end);
-      const auto [expression, value] = expression_at(speech.performance, time);
-      score.express(expression, value);
-      while (time < until) {
-        const std::size_t before = word;
-        while (word < words.size() && words[word] <= time) ++word;
-        for (std::size_t silent = before + 1; silent < word; ++silent) score.add(0, time, true);
-        const double next = word < words.size() ? std::min(until, words[word]) : until;
-        score.add(viseme, next, word > before);
-        time = next;
-      }
-    }
-    for (; word < words.size(); ++word) score.add(0, end, true);
-    SpeechText message;
-    message.media_time = static_cast<std::uint64_t>(std::llround(std::max(0.0, begin)));
-    message.language = speech.sounds;
-    message.text = text;
-    message.score = write_score(score.take());
-    if (message.score.size() > max_score_bytes) continue;  // a quarter of an hour in one sentence
-    if (!message.text.empty()) texts.push_back(std::move(message));
+    const std::size_t end = p + 1 < parts.size() ? parts[p + 1] : places.size();
+    const auto part = part_from(speech, std::span(places).subspan(parts[p], end - parts[p]), p == 0,
+                                end < places.size() ? &places[end] : nullptr);
+    while (first < segments.size() && segments[first].end <= part.begin) ++first;
+    std::size_t past = first;
+    while (past < segments.size() && segments[past].begin < part.end) ++past;
+    while (past > first && segments[past - 1].is_silence()) --past;
+    const auto score = score_of(part, std::span(segments).subspan(first, past - first), speech.performance);
+    SpeechText text{0, static_cast<std::uint64_t>(std::llround(std::max(0.0, part.begin))), language,
+                    std::string(part.text), write_score(score)};
+    // Beyond that it is a quarter of an hour in one sentence.
+    if (!text.text.empty() && text.score.size() <= max_score_bytes) texts.push_back(std::move(text));
   }
   return texts;
 }

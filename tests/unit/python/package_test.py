@@ -54,6 +54,41 @@ class Listeners(unittest.TestCase):
         self.assertEqual(caught.exception.where, "options.sample_rate")
 
 
+class Speakers(unittest.TestCase):
+    SCORE = bytes.fromhex("ab1119b3")  # "Am pe"
+
+    def test_the_mouth_follows_the_voice(self):
+        with semblante.Speaker() as speaker:
+            self.assertIsNone(speaker.show(0))
+            speaker.say(self.SCORE, 1000)
+            speaker.reach(0, 1000)
+            self.assertEqual(speaker.show(1060).viseme1, 10)
+            speaker.reach(1, 1180)
+            self.assertEqual(speaker.show(1200).viseme1, 1)
+            speaker.end(1400)
+            self.assertIsNone(speaker.show(2000))
+
+    def test_bytes_that_are_no_score_are_refused(self):
+        with self.assertRaises(semblante.SemblanteError):
+            semblante.Speaker().say(b"\xf7", 0)
+
+    def test_a_message_of_text_is_an_event_and_is_answered(self):
+        with semblante.Stream(text=True, ping_interval=-1) as stream:
+            stream.start(0)
+            stream.opened(0)
+            self.assertEqual(stream.take_bytes(), bytes([1, 1, 0, 0, 0, 0, 1]))
+            header = bytes.fromhex("02010464656d6f10412064656d6f20e2809420636166c3a90673616d706c6580d095ffbc3129e80c0084e656febc78420000000000003940280000")
+            stream.receive(header, 10)
+            list(stream.events())
+            stream.receive(bytes.fromhex("0b03e80c02656e05416d20706504") + self.SCORE, 20)
+            event = stream.next_event()
+            self.assertEqual(event.type, semblante.EventType.TEXT)
+            self.assertEqual((event.sequence, event.media_time, event.duration), (3, 1640, 360))
+            self.assertEqual(stream.text(event), ("Am pe", "en", self.SCORE))
+            stream.spoken(semblante.VoiceState.ENDED, 30, speech=3, character=5)
+            self.assertEqual(stream.take_bytes()[:4], bytes([12, 1, 3, 5]))
+
+
 class Heads(unittest.TestCase):
     def test_the_neutral_face_is_that_of_the_mesh(self):
         head = golden_head()
