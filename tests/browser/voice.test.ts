@@ -20,7 +20,7 @@ afterAll(async () => {
 
 interface Inside {
   said: { text: string; lang: string; at: number }[];
-  semblanteFace: { show: { kernel: { poses: { points: Float32Array }[] } } };
+  semblanteFace: { show: { kernel: { poses: { featurePoints: Float32Array }[] } } };
 }
 
 /**
@@ -103,7 +103,7 @@ test('BrowsersVoice_SaysTheText_AndTheFaceSpeaksWithoutFrames', async () => {
     const inside = window as unknown as Inside;
     const seen = new Set<string>();
     while (inside.said.length < 2) {
-      seen.add(Array.from(inside.semblanteFace.show.kernel.poses[0]!.points).join());
+      seen.add(Array.from(inside.semblanteFace.show.kernel.poses[0]!.featurePoints).join());
       await new Promise(requestAnimationFrame);
     }
     return seen.size;
