@@ -309,7 +309,7 @@ inline constexpr std::array<ExpressionInfo, 7> expressions = {{
     {"surprise"},
 }};
 
-inline constexpr std::array<Companion, 23> companions = {{
+inline constexpr std::array<Companion, 31> companions = {{
     {9, 0, 1.0, false},
     {10, 0, 0.95, false},
     {11, 0, 0.95, false},
@@ -323,6 +323,14 @@ inline constexpr std::array<Companion, 23> companions = {{
     {35, 46, 0.5, false},
     {45, 3, 1.0, false},
     {46, 4, 1.0, false},
+    {5, 3, 0.45, false},
+    {6, 4, 0.45, false},
+    {7, 3, 0.45, false},
+    {8, 4, 0.45, false},
+    {47, 45, 0.45, false},
+    {48, 46, 0.45, false},
+    {49, 45, 0.45, false},
+    {50, 46, 0.45, false},
     {2, 0, 0.95, true},
     {3, 0, 0.45, true},
     {4, 0, 0.45, true},

@@ -65,14 +65,17 @@ class Subject {
   }
   [[nodiscard]] std::vector<glm::vec3> moved(const semblante_frame& frame) const { return face_.pose(frame); }
 
-  /// Whether a vertex is more than two eye distances away from a point and from all that follow it.
-  [[nodiscard]] bool is_far(std::size_t v, const std::string& point) const {
+  /// The vertices that are more than two eye distances away from a point and from all that follow it.
+  [[nodiscard]] std::vector<bool> far_from(const std::string& point) const {
+    std::vector<bool> is_far(count(), true);
     for (const FeaturePoint& p : head_.points) {
       const std::string id = to_string(p.id);
       if (!p.vertex || (id != point && share_of_companion(id, point) == 0.0F)) continue;
-      if (glm::distance(rest_[v], rest_[p.vertex->value()]) <= 2048.0F * unit("ES")) return false;
+      for (std::size_t v = 0; v < count(); ++v) {
+        if (glm::distance(rest_[v], rest_[p.vertex->value()]) <= 2048.0F * unit("ES")) is_far[v] = false;
+      }
     }
-    return true;
+    return is_far;
   }
 
   [[nodiscard]] std::optional<std::uint32_t> vertex_of(const std::string& point) const {
@@ -222,6 +225,7 @@ void check_translation(const Subject& head, int number, float value) {
     expect_near(moved[v] - head.rest(v), share * displacement, head.tolerance(), to_string(other.id));
   }
   const bool tongue = is_of_tongue(point);
+  const std::vector<bool> is_far = head.far_from(point);
   float farthest = 0.0F;
   for (std::size_t v = 0; v < head.count(); ++v) {
     const glm::vec3 d = moved[v] - head.rest(v);
@@ -254,7 +258,7 @@ void check_translation(const Subject& head, int number, float value) {
           EXPECT_EQ(d, glm::vec3(0.0F));
         }
         // Two eye distances away nothing of it is left; but an ear's points are all there is on the scalp behind it.
-        if (!tongue && !is_jaw(number) && !point.starts_with("10.") && head.is_far(v, point)) {
+        if (!tongue && !is_jaw(number) && !point.starts_with("10.") && is_far[v]) {
           farthest = std::max(farthest, glm::length(d));
         }
         break;

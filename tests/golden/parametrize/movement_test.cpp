@@ -124,6 +124,27 @@ TEST(Jaw, TakesTheChinAlong) {
   }
 }
 
+TEST(Mouth, CornersDrawnInwardsDoNotPassTheLipsBesideThem) {
+  // Corner, point beside it.
+  constexpr std::pair<const char*, const char*> neighbors[] = {{"2.4", "2.6"}, {"2.4", "2.8"}, {"2.5", "2.7"},
+                                                               {"2.5", "2.9"}, {"8.3", "8.5"}, {"8.3", "8.7"},
+                                                               {"8.4", "8.6"}, {"8.4", "8.8"}};
+  for (const Head& head : heads_in_motion()) {
+    const PosedFace face(head, WeightMethod::smooth);
+    const std::vector<glm::vec3> rest = face.pose({});
+    const std::vector<glm::vec3> moved = face.pose(frame_of({{6, -300.0F}, {7, -300.0F}}));
+    for (const auto& [corner_id, beside_id] : neighbors) {
+      const auto* const corner = find_point(head.points, corner_id);
+      const auto* const beside = find_point(head.points, beside_id);
+      if (corner == nullptr || beside == nullptr || !corner->vertex || !beside->vertex) continue;
+      const auto gap = [&](const std::vector<glm::vec3>& vertices) {
+        return vertices[corner->vertex->value()].x - vertices[beside->vertex->value()].x;
+      };
+      EXPECT_GT(gap(moved) / gap(rest), 0.0F) << head.name << ", from " << corner_id << " to " << beside_id;
+    }
+  }
+}
+
 /// The file vertices below the chin where the skin of a face ends: of a cut neck, of a bust, in a collar.
 std::vector<std::uint32_t> border_below_chin(const PosedFace& face) {
   const Head& head = face.head();
