@@ -71,10 +71,12 @@ std::optional<std::vector<RecordingRecord>> list_recordings(Database& db, std::s
 }
 
 void write_recording(Database& db, const RecordingRecord& r) {
-  Statement(db,
-            "UPDATE recordings SET state = ?, ended = ?, duration = ?, frames = ?, lost = ?, bytes = ?, media_time = ?, "
-            "sound_packets = ? WHERE id = ?")
-      .bind(static_cast<int>(r.state), r.ended, r.duration, r.frames, r.lost, r.bytes, r.media_time, r.sound_packets, r.id)
+  Statement(
+      db,
+      "UPDATE recordings SET state = ?, ended = ?, duration = ?, frames = ?, lost = ?, bytes = ?, media_time = ?, "
+      "sound_packets = ? WHERE id = ?")
+      .bind(static_cast<int>(r.state), r.ended, r.duration, r.frames, r.lost, r.bytes, r.media_time, r.sound_packets,
+            r.id)
       .run();
 }
 

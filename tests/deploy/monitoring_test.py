@@ -116,7 +116,8 @@ class Metrics(unittest.TestCase):
         families = {re.sub(r"_(bucket|sum|count)$", "", name) for name in self.samples} - set(OF_PROMETHEUS)
         hidden = {"process_virtual_memory_bytes", "semblante_stream_batches_total", "semblante_stream_messages_sent_total",
                   "semblante_stream_encode_seconds_total", "semblante_stream_connections_refused_total", "semblante_trash_files",
-                  "semblante_worker_isolation", "semblante_stream_sound_packets_total", "semblante_stream_sound_messages_sent_total"}
+                  "semblante_worker_isolation", "semblante_stream_sound_packets_total", "semblante_stream_sound_messages_sent_total",
+                  "semblante_stream_texts_sent_total", "semblante_stream_words_reached_total"}
         self.assertEqual(families - {re.sub(r"_bucket$", "", name) for name in shown}, hidden)
 
     @unittest.skipUnless(shutil.which("promtool"), "not installed: promtool (Debian's package prometheus)")
