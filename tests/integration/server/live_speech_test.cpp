@@ -168,6 +168,38 @@ TEST_F(LiveSpeech, LateSentence_IsWaitedFor_AndWhole) {
   EXPECT_GT(sound, 10 * 90.0);
 }
 
+TEST_F(LiveSpeech, ClientWithAVoice_GetsTheSentencesOfEachPart_AtTheTimesOfTheirSound) {
+  WebSocket reader(server_->port(), "/v1/streams/talk", "semblante.v1.json");
+  reader.send_text(R"({"type":"hello","version":1,"text":true})");
+  ASSERT_TRUE(reader.receive());
+  const std::string short_to_say = "Oh - - - - - - - - - - - - - - - - - - - - - -.";
+  ASSERT_EQ(say(short_to_say + " Here is the late one.").status, 202);
+  listen_to_the_end();
+  std::vector<SpeechText> texts;
+  while (const auto text = reader.receive()) {
+    const auto message = decode_json(*text);
+    ASSERT_TRUE(message) << *text;
+    if (const auto* one = std::get_if<SpeechText>(&*message)) texts.push_back(*one);
+    if (std::holds_alternative<End>(*message)) break;
+  }
+  ASSERT_EQ(texts.size(), 2U);
+  EXPECT_EQ(texts[0].text, short_to_say);
+  EXPECT_EQ(texts[1].text, "Here is the late one.");
+  // The second part is late: it begins after the longest gap.
+  auto begin = heard_.sound.begin();
+  std::uint64_t longest = 0;
+  for (auto at = begin + 1; at != heard_.sound.end(); ++at) {
+    const auto gap = at->media_time - std::prev(at)->media_time;
+    if (gap > longest) begin = at;
+    longest = std::max(longest, gap);
+  }
+  const auto after = [](const SpeechText& text, const SoundPacket& packet) {
+    return static_cast<double>(text.media_time) - static_cast<double>(packet.media_time);
+  };
+  EXPECT_NEAR(after(texts[0], heard_.sound.front()), 120.0, 80.0) << "the silence before the first word";
+  EXPECT_NEAR(after(texts[1], *begin), 0.0, 80.0);
+}
+
 TEST_F(LiveSpeech, SentenceThatFails_EndsThePlay_AndIsSaid) {
   const auto answer = say(first + "But this one is broken, and will not be heard. " + first);
   ASSERT_EQ(answer.status, 202);
