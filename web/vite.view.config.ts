@@ -4,7 +4,7 @@ import { serviceWorker } from './service_worker.ts';
 
 const here = (path: string): string => fileURLToPath(new URL(path, import.meta.url));
 
-/** Lets the browser fetch the WebAssembly files beside the script instead of after it. */
+/** Lets the browser fetch the WebAssembly files beside the script instead of after it, but for that of a voice, which few ask for. */
 function preloadWasm(): Plugin {
   return {
     name: 'semblante-preload-wasm',
@@ -12,7 +12,7 @@ function preloadWasm(): Plugin {
       order: 'post',
       handler: (_, { bundle }) =>
         Object.keys(bundle ?? {})
-          .filter((name) => name.endsWith('.wasm'))
+          .filter((name) => name.endsWith('.wasm') && !name.includes('semblante_speak'))
           .map((name) => ({
             tag: 'link',
             attrs: { rel: 'preload', as: 'fetch', crossorigin: true, href: `./${name}` },

@@ -15,7 +15,7 @@ const { build, transform } = await import(pathToFileURL(tools.resolve('esbuild')
 const buildFolder = resolve(process.env.SEMBLANTE_BUILD ?? join(root, 'build'));
 const folder = resolve(process.argv[2] ?? join(root, 'build/npm/semblante'));
 const dist = join(folder, 'dist');
-const wasm = ['semblante_view.wasm', 'semblante_motion.wasm', 'semblante_listen.wasm'].map((name) => join(process.env.SEMBLANTE_WASM ?? join(buildFolder, 'wasm'), name));
+const wasm = ['semblante_view.wasm', 'semblante_motion.wasm', 'semblante_listen.wasm', 'semblante_speak.wasm'].map((name) => join(process.env.SEMBLANTE_WASM ?? join(buildFolder, 'wasm'), name));
 for (const file of wasm.filter((one) => !existsSync(one))) {
   console.error(`${file} is missing: build the target semblante-runtime-wasm, or set SEMBLANTE_WASM`);
   process.exit(1);

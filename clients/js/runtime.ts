@@ -39,13 +39,6 @@ export interface Functions extends Memory {
   semblante_player_stats(player: number, statistics: number): number;
   semblante_player_clear(player: number): void;
 
-  semblante_speaker_create(seed: number, speaker: number, error: number): number;
-  semblante_speaker_destroy(speaker: number): void;
-  semblante_speaker_say(speaker: number, score: number, size: number, firstWord: number, now: number): number;
-  semblante_speaker_reach(speaker: number, word: number, now: number): void;
-  semblante_speaker_end(speaker: number, now: number): void;
-  semblante_speaker_show(speaker: number, now: number, frame: number): number;
-
   semblante_sha256(bytes: number, size: number, digest: number): number;
 
   semblante_evaluate(rig: number, frame: number, pose: number): void;

@@ -168,7 +168,7 @@ void Stream::receive(std::span<const std::uint8_t> bytes, double now) {
     }
     return take_frames(now, false);
   }
-  auto message = decoder_.decode(bytes);
+  auto message = decoder_.decode_from_server(bytes);
   if (message) return take(*message, now);
   unanswered_since_ = never;
   const Error& error = message.error();

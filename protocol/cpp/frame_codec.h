@@ -22,6 +22,8 @@ class FrameDecoder {
   /// frames before a keyframe or after a gap (reconnect), other codes for malformed bytes. An error leaves the
   /// decoder's state unchanged.
   Result<Message> decode(std::span<const std::uint8_t> bytes);
+  /// The same in a client: messages that only clients send are `unsupported`.
+  Result<Message> decode_from_server(std::span<const std::uint8_t> bytes);
   /// The same for a message of which is_frames is true. `to` has no meaning after an error; its memory is used
   /// again, so that frames need none of their own.
   Status decode_frames(std::span<const std::uint8_t> bytes, Frames& to);
@@ -29,6 +31,9 @@ class FrameDecoder {
   void reset() { state_.reset(); }
 
  private:
+  template <bool from_server>
+  Result<Message> decode_any(std::span<const std::uint8_t> bytes);
+
   std::optional<PackedState> state_;  ///< none before the first keyframe
 };
 

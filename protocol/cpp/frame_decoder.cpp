@@ -136,11 +136,14 @@ Result<Message> read_message(std::span<const std::uint8_t> body) {
   return Message(std::move(message));  // bytes after the last field belong to a later version
 }
 
-template <class... M>
+template <class M>
+constexpr bool is_of_clients = std::is_same_v<M, Hello> || std::is_same_v<M, Spoken> || std::is_same_v<M, Ping>;
+
+template <bool from_server, class... M>
 Result<Message> read_by_type(std::span<const std::uint8_t> bytes, const std::variant<M...>* /*types*/) {
   std::optional<Result<Message>> result;
   const auto read = [&]<class T>(std::type_identity<T>) {
-    if constexpr (!is_packed<T>) result = read_message<T>(bytes.subspan(1));
+    if constexpr (!is_packed<T> && !(from_server && is_of_clients<T>)) result = read_message<T>(bytes.subspan(1));
     return true;
   };
   static_cast<void>(((MessageTraits<M>::type == bytes[0] && read(std::type_identity<M>())) || ...));
@@ -150,7 +153,14 @@ Result<Message> read_by_type(std::span<const std::uint8_t> bytes, const std::var
 
 }  // namespace
 
-Result<Message> FrameDecoder::decode(std::span<const std::uint8_t> bytes) {
+Result<Message> FrameDecoder::decode(std::span<const std::uint8_t> bytes) { return decode_any<false>(bytes); }
+
+Result<Message> FrameDecoder::decode_from_server(std::span<const std::uint8_t> bytes) {
+  return decode_any<true>(bytes);
+}
+
+template <bool from_server>
+Result<Message> FrameDecoder::decode_any(std::span<const std::uint8_t> bytes) {
   if (bytes.empty()) return Error{ErrorCode::truncated, "/type", "the message is empty"};
   if (is_frames(bytes[0])) {
     Frames frames;
@@ -158,7 +168,7 @@ Result<Message> FrameDecoder::decode(std::span<const std::uint8_t> bytes) {
     return Message(std::move(frames));
   }
   if (bytes.size() > max_binary_message_bytes) return Error{ErrorCode::too_large, "", "over 256 KiB"};
-  if (!is_keyframe(bytes[0])) return read_by_type(bytes, static_cast<const Message*>(nullptr));
+  if (!is_keyframe(bytes[0])) return read_by_type<from_server>(bytes, static_cast<const Message*>(nullptr));
   PackedState state;
   auto keyframe = read_packed_keyframe(bytes, state);
   if (!keyframe) return std::move(keyframe).error();

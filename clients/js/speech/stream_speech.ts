@@ -1,7 +1,9 @@
 import { wordsOf, wordTimes, type Word } from '../../../protocol/ts/speech_score.ts';
 import { Emitter } from '../emitter.ts';
-import { Runtime } from '../runtime.ts';
+import { frameLayout } from '../layouts.ts';
+import type { Runtime } from '../runtime.ts';
 import type { SpokenText, StreamClient } from '../stream_client.ts';
+import { loadSpeakers, type SpeakerLibrary } from './library.ts';
 
 /** `off`: not asked for. `ready`: text comes, and is said. `failed`: there is no voice, or it did not speak: frames come. */
 export type SpeechState = 'off' | 'ready' | 'failed';
@@ -16,8 +18,19 @@ const longest = 4;
 const tellInterval = 1000;
 /** ms; a word that is so much too late is left out, as who comes late does not say what was said */
 const latest = 300;
+/** bytes: SPEC.md, section 2.2 */
+const largestScore = 4000;
 const slowest = 0.7;
 const fastest = 1.6;
+
+/** What lies in the memory of the library. */
+interface SpeakerMemory {
+  readonly library: SpeakerLibrary;
+  readonly speaker: number;
+  readonly score: number;
+  /** A copy of the frame that is shown. */
+  readonly laid: number;
+}
 
 /** A text that the voice says or is going to say. */
 interface Saying {
@@ -52,7 +65,8 @@ export class StreamSpeech extends Emitter<{ state: SpeechState }> {
   private told = -Infinity;
   private timer: ReturnType<typeof setTimeout> | undefined;
   private starter: ReturnType<typeof setTimeout> | undefined;
-  private memory: { runtime: Runtime; speaker: number; score: number } | null = null;
+  private memory: SpeakerMemory | null = null;
+  private isDisposed = false;
   private readonly stops: (() => void)[];
 
   constructor(
@@ -61,6 +75,7 @@ export class StreamSpeech extends Emitter<{ state: SpeechState }> {
     private readonly delay: () => number = () => 0,
     private readonly synthesis: SpeechSynthesis | undefined = globalThis.speechSynthesis,
     private readonly now: () => number = () => performance.now(),
+    private readonly load: () => Promise<SpeakerLibrary> = loadSpeakers,
   ) {
     super();
     this.stops = [
@@ -80,9 +95,9 @@ export class StreamSpeech extends Emitter<{ state: SpeechState }> {
     return typeof speechSynthesis === 'object' && typeof SpeechSynthesisUtterance === 'function';
   }
 
-  /** To call by a tap or a key. Whether text is asked for now: false where the browser has no voice. */
+  /** To call by a tap or a key. Whether text is asked for now: false where the browser has no voice, or the library is not loaded. */
   async start(): Promise<boolean> {
-    if (!this.synthesis || (await voicesOf(this.synthesis)).length === 0) {
+    if (!this.synthesis || (await voicesOf(this.synthesis)).length === 0 || !(await this.prepare())) {
       this.become('failed');
       return false;
     }
@@ -102,17 +117,19 @@ export class StreamSpeech extends Emitter<{ state: SpeechState }> {
   dispose(): void {
     for (const stop of this.stops) stop();
     this.silence();
-    if (this.memory) {
-      this.memory.runtime.functions.semblante_speaker_destroy(this.memory.speaker);
-      this.memory.runtime.free(this.memory.score);
-    }
-    this.memory = null;
+    this.isDisposed = true;
+    this.memory = null; // the library is this object's own
   }
 
   /** For the option `overlay` of the player: the mouth that speaks, in a frame of the library. False: nothing is said. */
   show(runtime: Runtime, frame: number): boolean {
     const { memory } = this;
-    return memory !== null && memory.runtime === runtime && runtime.functions.semblante_speaker_show(memory.speaker, this.now(), frame) !== 0;
+    if (memory === null) return false;
+    const { library, speaker, laid } = memory;
+    library.bytes.set(runtime.bytes.subarray(frame, frame + frameLayout.size), laid);
+    if (library.functions.semblante_speaker_show(speaker, this.now(), laid) === 0) return false;
+    runtime.bytes.set(library.bytes.subarray(laid, laid + frameLayout.size), frame);
+    return true;
   }
 
   private become(state: SpeechState): void {
@@ -204,11 +221,10 @@ export class StreamSpeech extends Emitter<{ state: SpeechState }> {
       if (this.saying === saying) this.fail();
     }, startPatience + longest * saying.text.duration);
     saying.begun = this.now();
-    const memory = this.made();
-    if (!memory) return;
-    const { runtime, speaker, score } = memory;
-    runtime.bytes.set(saying.text.score, score);
-    runtime.functions.semblante_speaker_say(speaker, score, saying.text.score.length, saying.first, saying.begun);
+    if (!this.memory) return;
+    const { library, speaker, score } = this.memory;
+    library.bytes.set(saying.text.score, score);
+    library.functions.semblante_speaker_say(speaker, score, saying.text.score.length, saying.first, saying.begun);
   }
 
   private reach(saying: Saying, place: number): void {
@@ -217,7 +233,7 @@ export class StreamSpeech extends Emitter<{ state: SpeechState }> {
     if (word <= saying.reached) return;
     saying.reached = word;
     const now = this.now();
-    if (this.memory) this.memory.runtime.functions.semblante_speaker_reach(this.memory.speaker, word, now);
+    if (this.memory) this.memory.library.functions.semblante_speaker_reach(this.memory.speaker, word, now);
     if (now - this.told < tellInterval) return;
     this.told = now;
     this.client.spoken('reached', saying.text.speech, codePoints(saying.text.text, saying.words[word]!.begin));
@@ -236,15 +252,22 @@ export class StreamSpeech extends Emitter<{ state: SpeechState }> {
   private finish(saying: Saying): void {
     clearTimeout(this.starter);
     if (saying === this.saying) this.saying = null;
-    if (this.memory) this.memory.runtime.functions.semblante_speaker_end(this.memory.speaker, this.now());
+    if (this.memory) this.memory.library.functions.semblante_speaker_end(this.memory.speaker, this.now());
   }
 
-  private made(): { runtime: Runtime; speaker: number; score: number } | null {
-    const runtime = Runtime.loaded;
-    if (this.memory || !runtime) return this.memory;
-    const seed = Math.floor(Math.random() * 4294967296);
-    const speaker = runtime.made((handle, error) => runtime.functions.semblante_speaker_create(seed, handle, error), refused);
-    return (this.memory = { runtime, speaker, score: runtime.alloc(4000) });
+  /** Whether the library is there. */
+  private async prepare(): Promise<boolean> {
+    if (this.memory) return true;
+    try {
+      const library = await this.load();
+      const seed = Math.floor(Math.random() * 4294967296);
+      const speaker = library.made((handle, error) => library.functions.semblante_speaker_create(seed, handle, error), refused);
+      if (this.isDisposed) return false;
+      this.memory = { library, speaker, score: library.alloc(largestScore), laid: library.alloc(frameLayout.size) };
+      return true;
+    } catch {
+      return false;
+    }
   }
 }
 

@@ -3,7 +3,7 @@ import { Player, StreamClient, type PoseMaker, type StreamOptions } from '../../
 import { StreamSpeech, voiceFor } from '../../../../clients/js/speech/stream_speech.ts';
 import { isScoreOf, neutralFrame, wordsOf, wordTimes, type Message, type SpeechText, type Spoken } from '../../../../protocol/ts/index.ts';
 import { FakeSocket, headerOf } from '../support/fake_socket.ts';
-import { loadRuntime } from '../support/runtime.ts';
+import { loadRuntime, loadSpeakers } from '../support/runtime.ts';
 
 beforeAll(loadRuntime);
 
@@ -49,7 +49,7 @@ async function begin(voices: Voices | undefined = new Voices()) {
     now: () => Date.now(),
     pingInterval: 0,
   });
-  const speech = new StreamSpeech(client, () => 0, voices as unknown as SpeechSynthesis, () => Date.now());
+  const speech = new StreamSpeech(client, () => 0, voices as unknown as SpeechSynthesis, () => Date.now(), loadSpeakers);
   const shown: number[] = [];
   const player = new Player(
     { ...poses, evaluateAt: (runtime, frame, pose) => pose === 0 && shown.push(runtime.bytes[frame + (runtime.bytes[frame + 2]! >= 32 ? 0 : 1)]!) },
@@ -227,7 +227,7 @@ describe('StreamSpeech', () => {
   it('BrowserWithoutVoices_AsksForNoText', async () => {
     const client = new StreamClient('ws://x', { WebSocket: FakeSocket as unknown as NonNullable<StreamOptions['WebSocket']> });
     for (const synthesis of [undefined, new Voices([])]) {
-      const speech = new StreamSpeech(client, () => 0, synthesis as unknown as SpeechSynthesis);
+      const speech = new StreamSpeech(client, () => 0, synthesis as unknown as SpeechSynthesis, undefined, loadSpeakers);
       const started = speech.start();
       await vi.advanceTimersByTimeAsync(2000);
       expect(await started).toBe(false);

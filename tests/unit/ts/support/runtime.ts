@@ -3,6 +3,7 @@ import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { Runtime } from '../../../../clients/js/index.ts';
 import { loadMotion, type Library } from '../../../../clients/js/motion/index.ts';
+import type { SpeakerFunctions, SpeakerLibrary } from '../../../../clients/js/speech/library.ts';
 
 const folder = process.env['SEMBLANTE_WASM'] ?? fileURLToPath(new URL('../../../../build/wasm', import.meta.url));
 
@@ -11,6 +12,7 @@ export const viewPath = join(folder, 'semblante_view.wasm');
 export const motionPath = join(folder, 'semblante_motion.wasm');
 export const wholePath = join(folder, 'semblante.wasm');
 export const listenPath = join(folder, 'semblante_listen.wasm');
+export const speakPath = join(folder, 'semblante_speak.wasm');
 
 /** The library of this test file. */
 export function loadRuntime(): Promise<Runtime> {
@@ -20,4 +22,9 @@ export function loadRuntime(): Promise<Runtime> {
 /** Its part for takes, performances and bridges. */
 export function loadLibrary(): Promise<Library> {
   return loadMotion(() => readFileSync(motionPath));
+}
+
+/** An instance of its part for the face of a client's own voice. */
+export function loadSpeakers(): Promise<SpeakerLibrary> {
+  return Runtime.open<SpeakerFunctions>(readFileSync(speakPath));
 }
