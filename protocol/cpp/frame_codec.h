@@ -31,9 +31,6 @@ class FrameDecoder {
   void reset() { state_.reset(); }
 
  private:
-  template <bool from_server>
-  Result<Message> decode_any(std::span<const std::uint8_t> bytes);
-
   std::optional<PackedState> state_;  ///< none before the first keyframe
 };
 

@@ -151,29 +151,32 @@ Result<Message> read_by_type(std::span<const std::uint8_t> bytes, const std::var
   return *std::move(result);
 }
 
-}  // namespace
-
-Result<Message> FrameDecoder::decode(std::span<const std::uint8_t> bytes) { return decode_any<false>(bytes); }
-
-Result<Message> FrameDecoder::decode_from_server(std::span<const std::uint8_t> bytes) {
-  return decode_any<true>(bytes);
-}
-
 template <bool from_server>
-Result<Message> FrameDecoder::decode_any(std::span<const std::uint8_t> bytes) {
+Result<Message> read_any(std::span<const std::uint8_t> bytes, FrameDecoder& decoder,
+                         std::optional<PackedState>& state) {
   if (bytes.empty()) return Error{ErrorCode::truncated, "/type", "the message is empty"};
   if (is_frames(bytes[0])) {
     Frames frames;
-    if (auto status = decode_frames(bytes, frames); !status) return std::move(status).error();
+    if (auto status = decoder.decode_frames(bytes, frames); !status) return std::move(status).error();
     return Message(std::move(frames));
   }
   if (bytes.size() > max_binary_message_bytes) return Error{ErrorCode::too_large, "", "over 256 KiB"};
   if (!is_keyframe(bytes[0])) return read_by_type<from_server>(bytes, static_cast<const Message*>(nullptr));
-  PackedState state;
-  auto keyframe = read_packed_keyframe(bytes, state);
+  PackedState read;
+  auto keyframe = read_packed_keyframe(bytes, read);
   if (!keyframe) return std::move(keyframe).error();
-  state_ = state;
+  state = read;
   return Message(*keyframe);
+}
+
+}  // namespace
+
+Result<Message> FrameDecoder::decode(std::span<const std::uint8_t> bytes) {
+  return read_any<false>(bytes, *this, state_);
+}
+
+Result<Message> FrameDecoder::decode_from_server(std::span<const std::uint8_t> bytes) {
+  return read_any<true>(bytes, *this, state_);
 }
 
 Status FrameDecoder::decode_frames(std::span<const std::uint8_t> bytes, Frames& to) {

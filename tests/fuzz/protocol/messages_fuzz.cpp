@@ -1,5 +1,5 @@
 // A connection of binary messages: each input is a run of (length byte, message). What is accepted is said again, and
-// must mean the same; who joins at any frame reads on.
+// must mean the same; who joins at any frame reads on. A client reads the same, but for what only clients send.
 #include <algorithm>
 #include <cstdlib>
 
@@ -31,12 +31,17 @@ std::vector<std::uint8_t> said_again(const Message& message, PackedEncoder& enco
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  FrameDecoder decoder;
+  FrameDecoder decoder, client;
   FrameDecoder again;
   PackedEncoder encoder;
   for (std::size_t at = 0; at < size;) {
     const std::size_t length = std::min<std::size_t>(data[at], size - at - 1);
     const auto message = decoder.decode({data + at + 1, length});
+    const auto seen = client.decode_from_server({data + at + 1, length});
+    const auto unknown = !seen && seen.error().code == ErrorCode::unsupported && seen.error().where == "/type";
+    require(unknown || (seen.ok() == message.ok() && (!seen || *seen == *message)));
+    require(!unknown || !message || std::holds_alternative<Hello>(*message) ||
+            std::holds_alternative<Spoken>(*message) || std::holds_alternative<Ping>(*message));
     at += 1 + length;
     if (!message) continue;
     const auto echo = again.decode(said_again(*message, encoder));
