@@ -40,6 +40,17 @@ StreamOptions to_options(const semblante_stream_options& from) {
   return options;
 }
 
+semblante_result to_result(Stream::Published published) {
+  switch (published) {
+    case Stream::Published::sent:
+      return SEMBLANTE_OK;
+    case Stream::Published::unavailable:
+      return SEMBLANTE_UNAVAILABLE;
+    default:
+      return SEMBLANTE_INVALID_ARGUMENT;
+  }
+}
+
 semblante_event to_event(const Event& from) {
   semblante_event event{};
   event.type = from.type;
@@ -221,30 +232,14 @@ semblante_result semblante_stream_spoken(semblante_stream* stream, uint32_t stat
     return SEMBLANTE_INVALID_ARGUMENT;
   }
   return guarded(nullptr, [&] {
-    switch (stream->it.spoken({static_cast<VoiceState>(state), speech, character, 0}, now)) {
-      case Stream::Published::sent:
-        return SEMBLANTE_OK;
-      case Stream::Published::unavailable:
-        return SEMBLANTE_UNAVAILABLE;
-      default:
-        return SEMBLANTE_INVALID_ARGUMENT;
-    }
+    return to_result(stream->it.spoken({static_cast<VoiceState>(state), speech, character, 0}, now));
   });
 }
 
 semblante_result semblante_stream_publish(semblante_stream* stream, const semblante_timed_frame* frames, uint32_t count,
                                           double media_time, double now) {
   if (stream == nullptr || frames == nullptr || !is_time(now)) return SEMBLANTE_INVALID_ARGUMENT;
-  return guarded(nullptr, [&] {
-    switch (stream->it.publish({frames, count}, media_time, now)) {
-      case Stream::Published::sent:
-        return SEMBLANTE_OK;
-      case Stream::Published::unavailable:
-        return SEMBLANTE_UNAVAILABLE;
-      default:
-        return SEMBLANTE_INVALID_ARGUMENT;
-    }
-  });
+  return guarded(nullptr, [&] { return to_result(stream->it.publish({frames, count}, media_time, now)); });
 }
 
 }  // extern "C"

@@ -128,21 +128,21 @@ function details(recording: Recording, sight: RecordingSight, acts: RecordingAct
       'div',
       { class: 'row wrap', role: 'group', 'aria-label': t('Download {name} as', { name }) },
       formatsOf(sound).map(([format, title, meaning]) => {
-          const button = h(
-            'button',
-            {
-              type: 'button',
-              class: 'small',
-              'data-focus': `${format}-${id}`,
-              title: meaning,
-              disabled: empty || sight.busy,
-              on: { click: () => acts.download(format) },
-            },
-            icon('download', 14),
-            title,
-          );
-          if (format === 'glb') acts.needsFace(button);
-          return button;
+        const button = h(
+          'button',
+          {
+            type: 'button',
+            class: 'small',
+            'data-focus': `${format}-${id}`,
+            title: meaning,
+            disabled: empty || sight.busy,
+            on: { click: () => acts.download(format) },
+          },
+          icon('download', 14),
+          title,
+        );
+        if (format === 'glb') acts.needsFace(button);
+        return button;
       }),
     ),
     h(
