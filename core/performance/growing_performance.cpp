@@ -16,7 +16,8 @@ double end_of(const Cue& cue) {
   return cue.time + std::max(cue.keys.empty() ? 0.0 : cue.keys.back().time, blink_ms);
 }
 
-/// From here on, a cue that begins before the end of this one changes it. The head follows a look by times of its own.
+/// The time from which the face depends on the next cue, if that begins before the end of this one. For a look it is
+/// the cue's beginning: the times at which the head follows are not in the cue.
 double release_of(const Cue& cue) {
   const bool is_known = cue.duration && cue.release && !std::holds_alternative<LookTarget>(cue.target);
   return is_known ? cue.time + *cue.duration - *cue.release : cue.time;

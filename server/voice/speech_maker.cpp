@@ -154,7 +154,7 @@ Result<SpeechPart> SpeechParts::next(const std::function<bool()>& wanted) {
   if (said_ms_ > max_seconds * 1000.0)
     return Error{ErrorCode::too_large, "voice",
                  "speaks longer than " + std::to_string(std::lround(max_seconds)) + " s"};
-  // The face has its time to get ready and to come to rest in the pauses between the parts.
+  // The silence before and after the part is time in which the face gets ready and comes to rest.
   Speech seen;
   seen.utterance = with_silence(std::move(said->utterance), first_ ? speech_lead_ms : part.lead, speech_tail_ms);
   seen.performance = speech_performance(seen.utterance, said->marked.emotions, face_of(request_));

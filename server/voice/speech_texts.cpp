@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t longest_part = 300;     ///< bytes
 constexpr std::size_t longest_language = 64;  ///< bytes, of a message
 constexpr std::uint8_t closed_lips = 1;       ///< the viseme of p, b, m
-/// Lips that are closed for less are not seen to close at 25 frames a second.
+/// A shorter closure of the lips may fall between two frames of 25 a second.
 constexpr std::uint32_t least_closure = 2 * score_unit;
 
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }

@@ -132,7 +132,7 @@ export class SemblanteFace extends Base {
   }
 
   /**
-   * Whether the browser's own voice may say the text of the stream, in place of its sound: a thirtieth of the bytes. A button, or
+   * Whether the browser's own voice may say the text of the stream, in place of its sound: an eightieth of the bytes of face and sound. A button, or
    * `setVoice`, lets it speak. Where the browser has no voice it is as without this attribute.
    */
   get voice(): boolean {

@@ -78,7 +78,7 @@ export class Stage {
   private secondStart = 0;
   private framesInSecond = 0;
   private movingPixelRatio: number;
-  /** Without a third: what is left is the number of vertices, which the user chooses. */
+  /** Two steps: one pixel for each of the page, then fewer. The level of detail is the user's choice. */
   private readonly pace = new Pace(['fewer-pixels', 'fewer-pixels']);
   /** Seconds since the camera or the face moved. */
   private rest = stillAfter;
