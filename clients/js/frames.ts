@@ -1,7 +1,7 @@
 import type { FaceFrame } from '../../protocol/ts/face_frame.ts';
 import { fapCount } from '../../protocol/ts/generated/mpeg4.ts';
 import { nearestLevel, type QuantizerSteps } from '../../protocol/ts/quantizers.ts';
-import { frameLayout } from './layouts.ts';
+import { frameLayout } from './generated/layouts.ts';
 
 /** Writes a frame as semblante_frame, whose FAPs are in FAP units. Allocates nothing. */
 export function writeFrame(view: DataView, at: number, { viseme, expression, levels }: FaceFrame, steps: QuantizerSteps): void {
@@ -13,7 +13,7 @@ export function writeFrame(view: DataView, at: number, { viseme, expression, lev
   view.setUint8(at + 5, expression.select2);
   view.setUint8(at + 6, expression.intensity2);
   for (let fap = 3; fap <= fapCount; ++fap) {
-    view.setFloat32(at + frameLayout.faps + fap * 4, levels[fap]! * steps[fap]!, true);
+    view.setFloat32(at + frameLayout.fap + fap * 4, levels[fap]! * steps[fap]!, true);
   }
 }
 
@@ -37,5 +37,5 @@ export function readSelects(view: DataView, at: number, { viseme, expression }: 
 
 /** A low-level FAP of a semblante_frame, FAP units. */
 export function fapOf(view: DataView, at: number, fap: number): number {
-  return view.getFloat32(at + frameLayout.faps + fap * 4, true);
+  return view.getFloat32(at + frameLayout.fap + fap * 4, true);
 }

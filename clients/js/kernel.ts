@@ -12,24 +12,26 @@ import {
 import type { Face } from './face.ts';
 import { FaceError } from './face_error.ts';
 import { writeFrame } from './frames.ts';
-import { frameLayout } from './layouts.ts';
+import {
+  companionLayout,
+  faceLayout,
+  frameLayout,
+  irisLayout,
+  lidsLayout,
+  poseLayout,
+  rigLayout,
+  tongueLayout,
+  trianglesLayout,
+} from './generated/layouts.ts';
 import type { Runtime } from './runtime.ts';
 
-// Layout of the structures of core/kernel/semblante_kernel.h with 4-byte pointers.
-const rigFloatsAt = 8;
-const rigFloats = (160 - rigFloatsAt) / 4; // up to the pointer of companions
-const companionsAt = 160;
-const lipShareAt = 168;
-const lidsAt = 172;
-const lidFloats = 3 + 4 + ballPlaces;
-const rigBytes = lidsAt + 2 * lidFloats * 4;
-const visemeShareAt = 64;
-const companionBytes = 8;
-const faceBytes = 28;
-const trianglesBytes = 16;
-const irisFloats = 6;
-const tongueFloats = 11;
-const poseFloats = featurePointCount * 3 + 2 * 4 + 2 * 3 + 4 + 2 * 3 + 3 + 2 + 1 + 2 * irisFloats + tongueFloats + 4 + 2 * lidFloats;
+// Numbers of floats in structs that have nothing else, or up to their first other member.
+const floatBytes = 4;
+const rigFloats = (rigLayout.companion - rigLayout.fapu) / floatBytes;
+const lidFloats = lidsLayout.bytes / floatBytes;
+const irisFloats = irisLayout.bytes / floatBytes;
+const tongueFloats = tongueLayout.bytes / floatBytes;
+const poseFloats = poseLayout.bytes / floatBytes;
 
 export interface KernelOptions {
   /** Number of poses that the kernel holds. Default: 3. */
@@ -125,16 +127,16 @@ export class Kernel {
       size = Math.ceil((size + bytes) / 16) * 16;
       return offset;
     };
-    const frame = place(frameLayout.size);
+    const frame = place(frameLayout.bytes);
     const spans = place(12);
-    const rigAt = place(rigBytes);
-    const faceAt = place(faceBytes);
+    const rigAt = place(rigLayout.bytes);
+    const faceAt = place(faceLayout.bytes);
     const visemes = place(rig.visemes.length * featurePointCount * 12);
     const expressions = place(rig.expressions.length * featurePointCount * 12);
     const followers = [...rig.companions, ...rig.lower_lip];
-    const companions = place(followers.length * companionBytes);
-    const poses = Array.from({ length: options.poseCount ?? 3 }, () => place(poseFloats * 4));
-    const shown = place(poseFloats * 4);
+    const companions = place(followers.length * companionLayout.bytes);
+    const poses = Array.from({ length: options.poseCount ?? 3 }, () => place(poseLayout.bytes));
+    const shown = place(poseLayout.bytes);
     const rest = place(vertices * 12);
     const positions = place(vertices * 12);
     const rowOffsets = place((vertices + 1) * 4);
@@ -142,7 +144,7 @@ export class Kernel {
     const rowWeights = place(entries * 4);
     const rigid = place(vertices);
     const turn = place(vertices);
-    const trianglesAt = place(trianglesBytes);
+    const trianglesAt = place(trianglesLayout.bytes);
     const cornersAt = place(corners * 4);
     const joined = place(turned * 4);
     const normals = place(turned * 12);
@@ -153,18 +155,18 @@ export class Kernel {
 
     floats(visemes, rig.visemes.length * featurePointCount * 3).set(flatten(rig.visemes));
     floats(expressions, rig.expressions.length * featurePointCount * 3).set(flatten(rig.expressions));
-    new Uint32Array(memory, base + rigAt, 2).set([base + visemes, base + expressions]);
-    floats(rigAt + rigFloatsAt, rigFloats).set(rigNumbers(rig));
-    const companionView = new DataView(memory, base + companions, followers.length * companionBytes);
+    new Uint32Array(memory, base + rigAt + rigLayout.viseme, 2).set([base + visemes, base + expressions]);
+    floats(rigAt + rigLayout.fapu, rigFloats).set(rigNumbers(rig));
+    const companionView = new DataView(memory, base + companions, followers.length * companionLayout.bytes);
     followers.forEach(({ point, leader, share }, i) => {
-      const isChoice = i >= rig.companions.length;
-      companionView.setUint8(i * companionBytes, featurePointIndex(point)!);
-      companionView.setUint8(i * companionBytes + 1, featurePointIndex(leader)!);
-      companionView.setUint8(i * companionBytes + 2, isChoice ? 1 : 0);
-      companionView.setFloat32(i * companionBytes + 4, share, true);
+      const at = i * companionLayout.bytes;
+      companionView.setUint8(at + companionLayout.point, featurePointIndex(point)!);
+      companionView.setUint8(at + companionLayout.leader, featurePointIndex(leader)!);
+      companionView.setUint8(at + companionLayout.is_choice, i < rig.companions.length ? 0 : 1);
+      companionView.setFloat32(at + companionLayout.share, share, true);
     });
-    new Uint32Array(memory, base + rigAt + companionsAt, 2).set([base + companions, followers.length]);
-    floats(rigAt + lidsAt, 2 * lidFloats).set(rig.lids.flatMap(lidNumbers));
+    new Uint32Array(memory, base + rigAt + rigLayout.companion, 2).set([base + companions, followers.length]);
+    floats(rigAt + rigLayout.lids, 2 * lidFloats).set(rig.lids.flatMap(lidNumbers));
     if (vertices > 0) {
       floats(rest, vertices * 3).set(mesh.positions);
       floats(positions, vertices * 3).set(mesh.positions);
@@ -269,7 +271,7 @@ export class Kernel {
    */
   setVisemeShare(share: number | null): void {
     if (share !== null && !(share >= 0 && share <= 1)) throw new RangeError('a viseme share must be between 0 and 1');
-    this.runtime.view.setFloat32(this.at.rig + visemeShareAt, share ?? this.shareOfRig, true);
+    this.runtime.view.setFloat32(this.at.rig + rigLayout.viseme_share, share ?? this.shareOfRig, true);
   }
 
   /**
@@ -277,7 +279,7 @@ export class Kernel {
    * the default): streams move the lip by FAPs of its own, and these always win.
    */
   setJawTakesLip(takes: boolean): void {
-    this.runtime.view.setFloat32(this.at.rig + lipShareAt, takes ? 1 : 0, true);
+    this.runtime.view.setFloat32(this.at.rig + rigLayout.lip_share, takes ? 1 : 0, true);
   }
 
   /**
@@ -322,7 +324,7 @@ export class Kernel {
     const { face, positions, triangles, normals, shown } = this.at;
     const moved = this.runtime.functions.semblante_deform_changed(face, shown, this.poseAt(pose), positions);
     if (moved > 0 && triangles > 0) this.runtime.functions.semblante_normals(triangles, positions, normals);
-    this.runtime.bytes.copyWithin(shown, this.poseAt(pose), this.poseAt(pose) + poseFloats * 4);
+    this.runtime.bytes.copyWithin(shown, this.poseAt(pose), this.poseAt(pose) + poseLayout.bytes);
   }
 
   private poseAt(pose: number): number {

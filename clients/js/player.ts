@@ -1,4 +1,4 @@
-import { frameLayout, momentLayout, playerOptionsLayout, statisticsLayout } from './layouts.ts';
+import { frameLayout, momentLayout, playerOptionsLayout, playerStatisticsLayout } from './generated/layouts.ts';
 import { Runtime } from './runtime.ts';
 import type { StreamClient, StreamClock } from './stream_client.ts';
 
@@ -133,7 +133,7 @@ export class Player {
     const { runtime, player, statistics } = this.memory;
     runtime.functions.semblante_player_stats(player, statistics);
     const { view } = runtime;
-    const of = statisticsLayout;
+    const of = playerStatisticsLayout;
     return {
       delay: view.getFloat64(statistics + of.delay, true),
       wantedDelay: view.getFloat64(statistics + of.wanted_delay, true),
@@ -196,8 +196,8 @@ export class Player {
     const { overlay } = this.options;
     if (!overlay || poses === null) return moved;
     const { runtime, moment, laid } = memory;
-    const shown = moment + momentLayout.frames + 2 * frameLayout.size;
-    runtime.bytes.copyWithin(laid, shown, shown + frameLayout.size);
+    const shown = moment + momentLayout.frames + 2 * frameLayout.bytes;
+    runtime.bytes.copyWithin(laid, shown, shown + frameLayout.bytes);
     if (overlay(runtime, laid)) {
       poses.evaluateAt(runtime, laid, shownPose);
       this.isLaid = true;
@@ -228,10 +228,10 @@ export class Player {
       view.setUint32(at + playerOptionsLayout.eased, this.eased ? 1 : 0, true);
       view.setFloat64(at + playerOptionsLayout.delay, this.options.delay ?? 0, true);
     };
-    const player = runtime.create(playerOptionsLayout.size, options, functions.semblante_player_create);
-    const moment = runtime.struct(momentLayout.size);
-    const statistics = runtime.struct(statisticsLayout.size);
-    const laid = runtime.alloc(frameLayout.size);
+    const player = runtime.create(playerOptionsLayout.bytes, options, functions.semblante_player_create);
+    const moment = runtime.struct(momentLayout.bytes);
+    const statistics = runtime.struct(playerStatisticsLayout.bytes);
+    const laid = runtime.alloc(frameLayout.bytes);
     this.memory = { runtime, player, moment, statistics, laid };
     this.release = runtime.owns(this, () => {
       functions.semblante_player_destroy(player);
@@ -284,5 +284,5 @@ export class Player {
 
 /** One of the four frames of the moment. */
 function evaluate({ runtime, moment }: PlayerMemory, frame: number, pose: number, poses: PoseMaker): void {
-  poses.evaluateAt(runtime, moment + momentLayout.frames + frame * frameLayout.size, pose);
+  poses.evaluateAt(runtime, moment + momentLayout.frames + frame * frameLayout.bytes, pose);
 }

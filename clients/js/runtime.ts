@@ -1,5 +1,5 @@
 import { FaceError } from './face_error.ts';
-import { errorLayout } from './layouts.ts';
+import { errorLayout } from './generated/layouts.ts';
 
 /** What every file of libsemblante has. Pointers and handles are numbers. */
 export interface Memory {
@@ -181,7 +181,7 @@ export class Runtime<Of extends Memory = Functions> {
 
   /** Calls a function that gives a result and explains it by an error. Throws like `made`. */
   attempt(call: (error: number) => number, refusal: Refusal): void {
-    const error = this.alloc(errorLayout.size);
+    const error = this.alloc(errorLayout.bytes);
     try {
       const result = call(error);
       if (result !== 0) throw refusal(result, this.text(error + errorLayout.where), this.text(error + errorLayout.message));

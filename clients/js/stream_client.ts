@@ -25,7 +25,7 @@ import {
   headerLayout,
   streamOptionsLayout,
   timedFrameLayout,
-} from './layouts.ts';
+} from './generated/layouts.ts';
 import { Runtime } from './runtime.ts';
 
 export type ConnectionState = 'connecting' | 'open' | 'waiting' | 'closed';
@@ -175,11 +175,11 @@ export class StreamMemory {
     options: (view: DataView, at: number) => void,
   ) {
     const { semblante_stream_create: create } = runtime.functions;
-    this.stream = runtime.create(streamOptionsLayout.size, options, create);
+    this.stream = runtime.create(streamOptionsLayout.bytes, options, create);
     this.result = runtime.alloc(8);
-    this.event = runtime.struct(eventLayout.size);
-    this.header = runtime.struct(headerLayout.size);
-    this.clock = runtime.struct(clockLayout.size);
+    this.event = runtime.struct(eventLayout.bytes);
+    this.header = runtime.struct(headerLayout.bytes);
+    this.clock = runtime.struct(clockLayout.bytes);
   }
 
   room(bytes: number): number {
@@ -325,10 +325,10 @@ export class StreamClient extends Emitter<StreamEvents> {
     if (this.memory === null || this.state !== 'open' || !this.socket || frames.length === 0) return false;
     if (this.socket.bufferedAmount > maxBufferedBytes || frames.length > limits.max_frames_per_message) return false;
     const { runtime, stream } = this.memory;
-    const at = this.memory.room(frames.length * timedFrameLayout.size);
+    const at = this.memory.room(frames.length * timedFrameLayout.bytes);
     const { view } = runtime;
     frames.forEach(({ time, state }, i) => {
-      const frame = at + i * timedFrameLayout.size;
+      const frame = at + i * timedFrameLayout.bytes;
       view.setFloat64(frame, time, true);
       writeFrame(view, frame + timedFrameLayout.frame, state, this.steps);
     });
@@ -571,7 +571,7 @@ export class StreamClient extends Emitter<StreamEvents> {
     if (count === 0) return;
     const mediaTime = view.getFloat64(at, true);
     const frames: TimedFrame[] = Array.from({ length: count }, (_, i) => {
-      const frame = at + i * timedFrameLayout.size;
+      const frame = at + i * timedFrameLayout.bytes;
       const state = readFrame(view, frame + timedFrameLayout.frame, neutralFrame(), this.steps);
       return { time: view.getFloat64(frame, true) - mediaTime, state };
     });

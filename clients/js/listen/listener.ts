@@ -1,4 +1,4 @@
-import { heardLayout, listenerOptionsLayout } from '../layouts.ts';
+import { heardLayout, listenerOptionsLayout } from '../generated/layouts.ts';
 
 /** The functions of `semblante_listen.wasm`: clients/runtime/semblante.h. */
 interface ListenFunctions {
@@ -43,13 +43,13 @@ export class Listener {
     this.functions = functions;
     this.samples = functions.malloc(4 * block);
     this.taken = functions.malloc(4);
-    this.heard = functions.malloc(heardLayout.size);
-    const options = functions.malloc(listenerOptionsLayout.size);
+    this.heard = functions.malloc(heardLayout.bytes);
+    const options = functions.malloc(listenerOptionsLayout.bytes);
     if (!this.samples || !this.taken || !this.heard || !options) throw new Error('the listener has no memory');
     const view = this.view();
-    view.setUint32(options, listenerOptionsLayout.size, true);
+    view.setUint32(options, listenerOptionsLayout.bytes, true);
     view.setUint32(options + listenerOptionsLayout.sample_rate, sampleRate, true);
-    view.setUint32(this.heard, heardLayout.size, true);
+    view.setUint32(this.heard, heardLayout.bytes, true);
     const result = functions.semblante_listener_create(options, this.taken, 0);
     if (result !== 0) throw new RangeError(`a listener of ${sampleRate} samples a second cannot be made`);
     this.listener = this.view().getUint32(this.taken, true);

@@ -1,7 +1,7 @@
 import { neutralFrame, type FaceFrame } from '../../../protocol/ts/face_frame.ts';
 import { standardQuantizers, type QuantizerSteps } from '../../../protocol/ts/quantizers.ts';
 import { readFrame, writeFrame } from '../frames.ts';
-import { frameLayout } from '../layouts.ts';
+import { frameLayout } from '../generated/layouts.ts';
 import { type Library } from './library.ts';
 
 /** All values in order, or some by name (the others are 0). */
@@ -52,7 +52,7 @@ export class Bridges {
       toFrame: functions.semblante_frame_from_oculus,
       ofFrame: functions.semblante_oculus_from_frame,
     };
-    const frame = (this.frame = library.alloc(frameLayout.size));
+    const frame = (this.frame = library.alloc(frameLayout.bytes));
     const values = (this.values = library.alloc(4 * this.arkitNames.length));
     this.release = library.owns(this, () => {
       library.free(frame);

@@ -1,7 +1,7 @@
 import { lastLowLevelFap, neutralFrame, type FaceFrame } from '../../../protocol/ts/face_frame.ts';
 import { standardQuantizers, type QuantizerSteps } from '../../../protocol/ts/quantizers.ts';
 import { fapOf, readFrame, readSelects } from '../frames.ts';
-import { frameLayout } from '../layouts.ts';
+import { frameLayout } from '../generated/layouts.ts';
 import { refusedBytes, withBytes } from '../bytes.ts';
 import type { Library } from './library.ts';
 
@@ -32,7 +32,7 @@ export class Performance {
     const handle = (this.handle = withBytes(library, document, (at, size) =>
       library.made((made, error) => functions.semblante_performance_create(at, size, made, error), refusedBytes),
     ));
-    const frame = (this.frame = library.alloc(frameLayout.size));
+    const frame = (this.frame = library.alloc(frameLayout.bytes));
     this.release = library.owns(this, () => {
       functions.semblante_performance_destroy(handle);
       library.free(frame);

@@ -1,7 +1,7 @@
 import { neutralFrame, type TimedFrame } from '../../../protocol/ts/face_frame.ts';
 import { standardQuantizers, type QuantizerSteps } from '../../../protocol/ts/quantizers.ts';
 import { readFrame, writeFrame } from '../frames.ts';
-import { takeOptionsLayout, takeWarningLayout, timedFrameLayout } from '../layouts.ts';
+import { takeOptionsLayout, takeWarningLayout, timedFrameLayout } from '../generated/layouts.ts';
 import { bufferTooSmall, refusedBytes, withBytes } from '../bytes.ts';
 import type { Library } from './library.ts';
 
@@ -42,7 +42,7 @@ export interface Take {
 /** Reads a file of recorded motion. Throws ProtocolError; its `where` is "line 12" or "line 12, word 3". */
 export function readTake(library: Library, format: TakeFormat, text: string | Uint8Array, options: TakeOptions = {}): Take {
   const { functions } = library;
-  const asked = library.struct(takeOptionsLayout.size);
+  const asked = library.struct(takeOptionsLayout.bytes);
   library.view.setUint32(asked + takeOptionsLayout.absent, options.absent === 'keep' ? 1 : 0, true);
   library.view.setUint32(asked + takeOptionsLayout.gaps, options.gaps === 'interpolate' ? 1 : 0, true);
   try {
@@ -72,7 +72,7 @@ function framesOf(library: Library, take: number, steps: QuantizerSteps): TimedF
     const first = library.functions.semblante_take_frames(take, counter);
     const { view } = library;
     return Array.from({ length: view.getUint32(counter, true) }, (_, i) => {
-      const at = first + i * timedFrameLayout.size;
+      const at = first + i * timedFrameLayout.bytes;
       const time = view.getFloat64(at + timedFrameLayout.time, true);
       return { time, state: readFrame(view, at + timedFrameLayout.frame, neutralFrame(), steps) };
     });
@@ -84,7 +84,7 @@ function framesOf(library: Library, take: number, steps: QuantizerSteps): TimedF
 function warningsOf(library: Library, take: number): TakeWarning[] {
   const { functions } = library;
   const of = takeWarningLayout;
-  const at = library.struct(of.size);
+  const at = library.struct(of.bytes);
   try {
     return Array.from({ length: functions.semblante_take_warning_count(take) }, (_, i) => {
       functions.semblante_take_get_warning(take, i, at);
@@ -107,16 +107,16 @@ export function writeTake(
   rate = 0,
   steps: QuantizerSteps = standardQuantizers,
 ): Uint8Array {
-  const { size } = timedFrameLayout;
-  const block = library.alloc(Math.max(1, frames.length) * size);
+  const { bytes } = timedFrameLayout;
+  const block = library.alloc(Math.max(1, frames.length) * bytes);
   const length = library.alloc(4);
   let text = 0;
   const write = (error: number): number =>
     library.functions.semblante_take_write(formats.indexOf(format), block, frames.length, rate, text, length, error);
   try {
     frames.forEach(({ time, state }, i) => {
-      library.view.setFloat64(block + i * size + timedFrameLayout.time, time, true);
-      writeFrame(library.view, block + i * size + timedFrameLayout.frame, state, steps);
+      library.view.setFloat64(block + i * bytes + timedFrameLayout.time, time, true);
+      writeFrame(library.view, block + i * bytes + timedFrameLayout.frame, state, steps);
     });
     library.attempt((error) => {
       const result = write(error);

@@ -1,6 +1,6 @@
 import { wordsOf, wordTimes, type Word } from '../../../protocol/ts/speech_score.ts';
 import { Emitter } from '../emitter.ts';
-import { frameLayout } from '../layouts.ts';
+import { frameLayout } from '../generated/layouts.ts';
 import type { Runtime } from '../runtime.ts';
 import type { SpokenText, StreamClient } from '../stream_client.ts';
 import { loadSpeakers, type SpeakerLibrary } from './library.ts';
@@ -126,9 +126,9 @@ export class StreamSpeech extends Emitter<{ state: SpeechState }> {
     const { memory } = this;
     if (memory === null) return false;
     const { library, speaker, laid } = memory;
-    library.bytes.set(runtime.bytes.subarray(frame, frame + frameLayout.size), laid);
+    library.bytes.set(runtime.bytes.subarray(frame, frame + frameLayout.bytes), laid);
     if (library.functions.semblante_speaker_show(speaker, this.now(), laid) === 0) return false;
-    runtime.bytes.set(library.bytes.subarray(laid, laid + frameLayout.size), frame);
+    runtime.bytes.set(library.bytes.subarray(laid, laid + frameLayout.bytes), frame);
     return true;
   }
 
@@ -263,7 +263,7 @@ export class StreamSpeech extends Emitter<{ state: SpeechState }> {
       const seed = Math.floor(Math.random() * 4294967296);
       const speaker = library.made((handle, error) => library.functions.semblante_speaker_create(seed, handle, error), refused);
       if (this.isDisposed) return false;
-      this.memory = { library, speaker, score: library.alloc(largestScore), laid: library.alloc(frameLayout.size) };
+      this.memory = { library, speaker, score: library.alloc(largestScore), laid: library.alloc(frameLayout.bytes) };
       return true;
     } catch {
       return false;

@@ -18,7 +18,9 @@ class Head(Owner):
         SemblanteError: malformed, unsupported, mismatch, too_large, out_of_memory."""
         mesh_drc, weights = bytes(mesh_drc), bytes(weights)
         rig_json = rig_json.encode() if isinstance(rig_json, str) else bytes(rig_json)
-        package = Package(mesh_drc=mesh_drc, mesh_drc_size=len(mesh_drc), weights=weights, weights_size=len(weights),
+        address = ctypes.POINTER(ctypes.c_uint8)
+        package = Package(mesh_drc=ctypes.cast(mesh_drc, address), mesh_drc_size=len(mesh_drc),
+                          weights=ctypes.cast(weights, address), weights_size=len(weights),
                           rig_json=rig_json, rig_json_size=len(rig_json))
         options = HeadOptions(viseme_share=viseme_share, jaw_takes_lip=int(jaw_takes_lip))
         super().__init__(make(library.semblante_head_create, ctypes.byref(package), ctypes.byref(options)))

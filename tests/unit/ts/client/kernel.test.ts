@@ -2,7 +2,7 @@ import { readFileSync } from 'node:fs';
 import { beforeAll, describe, expect, it } from 'vitest';
 import { writeFrame } from '../../../../clients/js/frames.ts';
 import { Kernel, neutralFrame, Runtime, type Face, type FaceFrame } from '../../../../clients/js/index.ts';
-import { frameLayout } from '../../../../clients/js/layouts.ts';
+import { frameLayout } from '../../../../clients/js/generated/layouts.ts';
 import { fullTurn, rigFapus, type QuantizerSteps, type RigDocument, type Vec3 } from '../../../../protocol/ts/index.ts';
 import { featurePoints } from '../../../../protocol/ts/generated/mpeg4.ts';
 import { loadRuntime, viewPath } from '../support/runtime.ts';
@@ -240,7 +240,7 @@ describe('Kernel', () => {
     const kernel = new Kernel(runtime, faceOf(vectors));
     const [frame, steps] = frameOf(vectors.cases[3]!.frame);
     kernel.evaluate(frame, 0, steps);
-    const at = runtime.alloc(frameLayout.size);
+    const at = runtime.alloc(frameLayout.bytes);
     writeFrame(runtime.view, at, frame, steps);
     kernel.evaluateAt(runtime, at, 1);
     expect(kernel.poses[1]).toEqual(kernel.poses[0]);
