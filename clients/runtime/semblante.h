@@ -18,21 +18,21 @@
  * - The library opens no socket or file, starts no thread, reads no clock, logs nothing, uses no locale, calls nothing
  *   of the caller, has no mutable global state, and no exception leaves it. Bytes and times go in; vertices, poses,
  *   bytes to send and events come out.
- * - Times are milliseconds. `now` is the caller's steady clock with any origin; it must not decrease from call to call
- * of one object and all objects that follow each other must use the same clock. Media time is the clock of a stream.
- * No time is a number that is not finite or beyond +-9e15 (285,000 years): such a `now` makes the call do nothing, any
- * other is INVALID_ARGUMENT.
+ * - Times are milliseconds. `now` is the caller's steady clock with any origin. It must not decrease from call to call
+ *   of one object, and all objects that follow each other must use the same clock. Media time is the clock of a
+ *   stream. A time that is not finite or is beyond +-9e15 (285,000 years) is none: such a `now` makes the call do
+ *   nothing, any other is INVALID_ARGUMENT.
  * - Memory is allocated by the functions named _create and _read, and when a documented limit grows (the longest
- * message, the frames that a player holds). From then on a frame allocates nothing. Where memory ends the function
- * gives OUT_OF_MEMORY, or does nothing if it has no result.
+ *   message, the frames that a player holds). From then on a frame allocates nothing. When memory is exhausted a
+ *   function returns OUT_OF_MEMORY, or does nothing if it has no result.
  * - Threads: functions that take only const objects may run at the same time on the same objects; the others need
  *   exclusive access to each object that is not const. A stream and the players that follow it count as one object.
  *   Different objects are independent.
  * - Lifetime: what a function returns by pointer belongs to the object. It is valid until the object is destroyed, or
  *   as the function says. Every _destroy accepts null.
- * - Structs of options and results begin with `size`, which the caller sets to sizeof(the struct) as compiled: members
- * are only appended, the library reads and writes no more than `size` bytes, and takes zero for what is missing. They
- * are valid when otherwise zeroed. A `size` too small for the member itself is INVALID_ARGUMENT.
+ * - Structs of options and results begin with `size`, which the caller sets to sizeof(the struct) as compiled. Members
+ *   are only appended; the library reads and writes no more than `size` bytes, and takes zero for what is missing. They
+ *   are valid when otherwise zeroed. A `size` too small for the member itself is INVALID_ARGUMENT.
  * - Bytes from outside (packages, messages, documents, files) are not trusted: all are checked, with bounds on time and
  *   memory.
  * - Frames and poses are the kernel's own (semblante_kernel.h); its functions are exported as well.
