@@ -1,8 +1,8 @@
 """Builds the wheel of this package with the standard library alone, so that `pip install .` needs no network (PEP 517).
 
 The wheel contains the Python sources and the shared library of the runtime, which is not compiled here but taken from
-SEMBLANTE_LIBRARY or from the build folder of the checkout. Without either the wheel has no library, and the package then
-loads the one that the system has installed.
+SEMBLANTE_LIBRARY or from the build folders of the checkout. Without either the wheel has no library, which is said, and the
+package then loads the one that the system has installed.
 """
 
 import base64
@@ -11,6 +11,7 @@ import hashlib
 import io
 import os
 import pathlib
+import sys
 import sysconfig
 import tarfile
 import zipfile
@@ -50,8 +51,11 @@ def shared_library():
     named = os.environ.get("SEMBLANTE_LIBRARY")
     if named:
         return pathlib.Path(named).resolve(strict=True)
-    found = here.parents[1] / "build" / "lib" / "libsemblante.so"
-    return found.resolve() if found.exists() else None
+    for folder in ("build/runtime/lib", "build/lib"):  # of the presets `runtime` and `release`
+        found = here.parents[1] / folder / "libsemblante.so"
+        if found.exists():
+            return found.resolve()
+    return None
 
 
 def wheel_name(library):
@@ -90,6 +94,8 @@ def write_wheel(path, name, library):
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     library = shared_library()
+    if library is None:
+        print("libsemblante.so was not found in build/runtime/lib or build/lib: the wheel is without it", file=sys.stderr)
     name = wheel_name(library)
     write_wheel(pathlib.Path(wheel_directory, name + ".whl"), name, library)
     return name + ".whl"

@@ -38,6 +38,30 @@ class Install(unittest.TestCase):
             self.assertEqual(semblante_build.build_wheel(again), name)
             self.assertEqual(pathlib.Path(folder, name).read_bytes(), (again / name).read_bytes())
 
+    def test_the_library_is_that_of_either_preset_and_its_absence_is_said(self):
+        with tempfile.TemporaryDirectory() as top:
+            package = pathlib.Path(top, "clients/python")
+            package.parent.mkdir()
+            subprocess.run(["cp", "-r", PACKAGE, package], check=True)
+            without_hint = environment(PYTHONPATH=str(package / "build_backend"))
+            without_hint.pop("SEMBLANTE_LIBRARY", None)
+
+            def built():
+                return subprocess.run([sys.executable, "-c", "import semblante_build; print(semblante_build.build_wheel('.'))"],
+                                      env=without_hint, cwd=top, check=True, capture_output=True, text=True)
+
+            alone = built()
+            self.assertIn("-any", alone.stdout)
+            self.assertIn("the wheel is without it", alone.stderr)
+            for folder in ("build/lib", "build/runtime/lib"):
+                library = pathlib.Path(top, folder, "libsemblante.so")
+                library.parent.mkdir(parents=True)
+                library.write_text(folder)
+                whole = built()
+                self.assertEqual(whole.stderr, "")
+                with zipfile.ZipFile(pathlib.Path(top, whole.stdout.strip())) as wheel:
+                    self.assertEqual(wheel.read("semblante/libsemblante.so").decode(), folder)
+
     def test_pip_installs_it_without_network(self):
         if importlib.util.find_spec("pip") is None:
             self.skipTest("pip is not installed")
