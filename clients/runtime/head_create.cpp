@@ -163,7 +163,7 @@ semblante_result check_pairing(const Sha256* mesh_hash, std::size_t vertices, co
 semblante_result create(const semblante_package& package, const semblante_head_options& options,
                         std::unique_ptr<semblante_head>& made, semblante_error* error) {
   auto table = decode_weights({package.weights, package.weights_size});
-  if (!table) return fail(error, table.error(), "weights");
+  if (!table) return fail(error, table.error(), "weights/");
   auto document = read_rig({package.rig_json, package.rig_json_size});
   if (!document) return fail(error, document.error(), "rig.json");
 

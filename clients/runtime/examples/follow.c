@@ -73,12 +73,16 @@ static int send_message(int fd, unsigned kind, const uint8_t* bytes, size_t size
   return send_all(fd, out, at + size);
 }
 
-/* Socket and handshake; -1 when it fails. A browser's key and its proof guard against caches, which are not here. */
+/* open_socket: the server's answer does not change by asking again, such as 404 for a stream that it does not have. */
+#define REFUSED (-2)
+
+/* Socket and handshake; -1 when it fails, or REFUSED. A browser's key and its proof guard against caches, which are not
+ * here. */
 static int open_socket(const char* host, const char* port, const char* stream) {
   struct addrinfo hints, *found = NULL, *at;
   struct timeval patience = {10, 0};
   char text[1024];
-  int fd = -1;
+  int fd = -1, line;
   memset(&hints, 0, sizeof(hints));
   hints.ai_socktype = SOCK_STREAM;
   if (getaddrinfo(host, port, &hints, &found) != 0) return -1;
@@ -105,13 +109,16 @@ static int open_socket(const char* host, const char* port, const char* stream) {
       return fd;
     }
   }
-  fprintf(stderr, "the server refused: %.*s\n", (int)(held_size < 80 ? held_size : 80), (const char*)held);
   close(fd);
-  return -1;
+  for (line = 0; line < 80 && (size_t)line < held_size && held[line] != '\r'; ++line) continue;
+  fprintf(stderr, "the server does not open the stream: %.*s\n", line, (const char*)held);
+  if (held_size < 12 || memcmp(held, "HTTP/1.1 4", 10) != 0 || memcmp(held + 9, "429", 3) == 0) return -1;
+  return REFUSED;
 }
 
-/* Hands whole messages to the stream; 0 when the connection is to be given up. */
-static int take_messages(int fd, semblante_stream* stream, double now) {
+/* Hands whole messages to the stream; 0 when the connection is to be given up, and then the server's close code, if
+ * any. */
+static int take_messages(int fd, semblante_stream* stream, double now, uint32_t* code) {
   while (held_size >= 2) {
     uint64_t size = held[1] & 127;
     size_t at = 2, i, bytes = size == 126 ? 2 : size == 127 ? 8 : 0;
@@ -121,7 +128,10 @@ static int take_messages(int fd, semblante_stream* stream, double now) {
     if (size > LONGEST - 14 || (held[0] & 0x80) == 0) return 0; /* the server's messages are whole and short */
     if (held_size < at + size) return 1;
     if (kind == 2) semblante_stream_receive(stream, held + at, (size_t)size, now);
-    if (kind == 8) return 0;
+    if (kind == 8) {
+      if (size >= 2) *code = (uint32_t)held[at] << 8 | held[at + 1];
+      return 0;
+    }
     if (kind == 9 && !send_message(fd, 10, held + at, (size_t)size)) return 0;
     drop(at + (size_t)size);
   }
@@ -134,7 +144,7 @@ int main(int argc, char** argv) {
   semblante_head* head;
   semblante_error error;
   double shown = now_ms();
-  int fd = -1, is_over = 0;
+  int fd = -1, is_over = 0, is_refused = 0;
   long frames;
   if (argc < 5) {
     fprintf(stderr, "usage: %s HOST PORT STREAM FOLDER [FRAMES]\n", argv[0]);
@@ -159,6 +169,7 @@ int main(int argc, char** argv) {
     while (semblante_stream_next_event(stream, &event)) {
       if (event.type == SEMBLANTE_EVENT_CONNECT) {
         fd = open_socket(argv[1], argv[2], argv[3]);
+        if (fd == REFUSED) is_over = is_refused = 1;
         if (fd < 0)
           semblante_stream_closed(stream, 0, now_ms());
         else
@@ -182,13 +193,14 @@ int main(int argc, char** argv) {
     now = now_ms();
     if (fd >= 0) {
       struct pollfd wait;
+      uint32_t code = 0;
       wait.fd = fd;
       wait.events = POLLIN;
       if (poll(&wait, 1, due > now ? (int)(due - now) + 1 : 0) > 0 &&
-          (!receive_some(fd) || !take_messages(fd, stream, now_ms()))) {
+          (!receive_some(fd) || !take_messages(fd, stream, now_ms(), &code))) {
         close(fd);
         fd = -1;
-        semblante_stream_closed(stream, 0, now_ms());
+        semblante_stream_closed(stream, code, now_ms());
       }
     } else {
       poll(NULL, 0, due > now ? (int)(due - now) + 1 : 0);
@@ -210,5 +222,5 @@ int main(int argc, char** argv) {
   semblante_player_destroy(player);
   semblante_stream_destroy(stream);
   semblante_head_destroy(head);
-  return 0;
+  return is_refused;
 }

@@ -184,6 +184,15 @@ class Installed(unittest.TestCase):
         jaws = [float(line.split()[-1]) for line in lines]
         self.assertGreater(max(jaws), 0)
 
+    def test_follow_of_a_stream_that_is_not_there_ends_with_the_servers_answer(self):
+        program = self.folder / "follow-nothing"
+        run("cc", "-std=c99", *STRICT, EXAMPLES / "follow.c", *run("pkg-config", "--cflags", "--libs", "semblante",
+            env=self.packages).split(), f"-Wl,-rpath,{self.library_folder}", "-o", program)
+        with Server(self.folder / "data-nothing") as server:
+            done = subprocess.run([program, "127.0.0.1", str(server.port), "nothing", FACE], capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual(done.stderr, "the server does not open the stream: HTTP/1.1 404 Not Found\n")
+
     def test_files_that_are_no_package_end_in_words(self):
         for text, name in (("", "empty"), ("x" * 100, "rubbish")):
             folder = self.folder / name

@@ -60,6 +60,12 @@ TEST(HeadCreate, InvalidInputs_EachIsNamed) {
     EXPECT_EQ(create_result(bad.view(), &error), SEMBLANTE_INVALID_ARGUMENT);
     EXPECT_STREQ(error.where, "package.positions");
   }
+  {  // The place is that of the file and of its part.
+    semblante_package package = small.view();
+    package.weights_size = 10;
+    EXPECT_EQ(create_result(package, &error), SEMBLANTE_MALFORMED);
+    EXPECT_STREQ(error.where, "weights/header");
+  }
   {  // Too few positions for the table.
     semblante_package package = small.view();
     package.vertex_count = 3;
