@@ -66,7 +66,9 @@ void RequestParser::on_request_impl(boost::beast::http::verb, View method, View 
   request_.target = view(target);
   auto parsed = http::parse_target(view(target));
   if (!parsed) {
-    problem_ = http::make_problem("malformed-request", "the request target is not a path");
+    problem_ = http::make_problem("malformed-request",
+                                  "the request target is not a path, or has an encoded slash, "
+                                  "or a % without two hexadecimal digits after it");
     error = E::bad_target;
     return;
   }
@@ -128,6 +130,13 @@ std::size_t RequestParser::on_chunk_body_impl(std::uint64_t, View piece, ErrorCo
 }
 
 void RequestParser::on_chunk_header_impl(std::uint64_t, View extensions, ErrorCode& error) {
+  // Beast takes any byte within quotes. A proxy that ends the line at a line feed alone would see another body.
+  if (std::any_of(extensions.begin(), extensions.end(),
+                  [](unsigned char c) { return (c < ' ' && c != '\t') || c == 0x7f; })) {
+    problem_ = http::make_problem("malformed-request", "a chunk extension has a control character");
+    error = E::bad_chunk_extension;
+    return;
+  }
   extension_bytes_ += extensions.size();
   if (extension_bytes_ <= max_bytes_) return;
   problem_ = http::make_problem("malformed-request", "the chunk extensions of the body have together more than " +

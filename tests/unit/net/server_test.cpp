@@ -246,6 +246,23 @@ TEST_F(ServerTest, TrailerThatGoesOnInAFurtherLine_IsRefused) {
   EXPECT_NE(client.read(length).find("a header field goes on in a further line"), std::string::npos);
 }
 
+TEST_F(ServerTest, ControlCharacterInAChunkExtension_IsRefused) {
+  // Some proxies end the line at the line feed, and see another body than the server.
+  const std::string head = "GET /immediate HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n";
+  for (const char* body : {"1;a=\"\n\"\r\nx\r\n0\r\n\r\n", "1;a=\"\x7f\"\r\nx\r\n0\r\n\r\n", "0;a=\"\n\"\r\n\r\n"}) {
+    SCOPED_TRACE(body);
+    const Client client(port_);
+    client.send(head + body);
+    const auto answer = client.read_head();
+    EXPECT_TRUE(answer.starts_with("HTTP/1.1 400 "));
+    const auto length = std::stoul(answer.substr(answer.find("Content-Length: ") + 16));
+    EXPECT_NE(client.read(length).find("a chunk extension has a control character"), std::string::npos);
+  }
+  const Client quoted(port_);
+  quoted.send(head + "1;a=\"b\tc\"\r\nx\r\n0\r\n\r\n");
+  EXPECT_TRUE(quoted.read_head().starts_with("HTTP/1.1 200 "));
+}
+
 TEST_F(ServerTest, FileThatCannotBeOpened_IsAnswered503_AndTheConnectionStays) {
   application_.file = "/absent/file";
   application_.file_bytes = 5;
