@@ -28,7 +28,7 @@ mkdirSync(dist, { recursive: true });
 const dracoFolder = join(root, 'web/node_modules/three/examples/jsm/libs/draco/gltf');
 const dracoScript = readFileSync(join(dracoFolder, 'draco_wasm_wrapper.js'), 'utf8');
 const dracoModule = await transform(`${dracoScript}\nexport default DracoDecoderModule;`, {
-  define: { process: 'undefined', module: 'undefined', exports: 'undefined', define: 'undefined', require: 'undefined' },
+  define: Object.fromEntries(['process', 'module', 'exports', 'define', 'require', '__filename', '__dirname'].map((name) => [name, 'undefined'])),
   minify: true,
   format: 'esm',
 });

@@ -472,7 +472,14 @@ export class StreamClient extends Emitter<StreamEvents> {
   private open(): void {
     const { token } = this.options;
     const names = token === undefined ? [binarySubprotocol] : [binarySubprotocol, `${bearerSubprotocol}${token}`];
-    const socket = new this.options.WebSocket(this.url, names);
+    let socket: WebSocket;
+    try {
+      socket = new this.options.WebSocket(this.url, names);
+    } catch (error) {
+      // An address that is none of a WebSocket, or that this page may not open: the next attempt would fail likewise.
+      this.emit('fault', new ProtocolError('invalid_argument', '', `${this.url}: ${error instanceof Error ? error.message : String(error)}`));
+      return this.close();
+    }
     this.socket = socket;
     socket.binaryType = 'arraybuffer';
     const current = (call: (memory: StreamMemory, now: number) => void) => (): void => {

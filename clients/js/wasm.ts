@@ -19,6 +19,11 @@ export async function bytesOf(address: URL): Promise<Uint8Array<ArrayBuffer>> {
     return readFile(address);
   }
   const response = await fetch(address);
-  if (!response.ok) throw new Error(`${address.href}: status ${response.status}`);
-  return new Uint8Array(await response.arrayBuffer());
+  const bytes = new Uint8Array(await response.arrayBuffer());
+  if (response.ok && wasmMagic.every((byte, i) => bytes[i] === byte)) return bytes;
+  const answer = response.ok ? 'a page, not WebAssembly' : `status ${response.status}`;
+  throw new Error(`${address.href}: ${answer}. The bundler has left this file behind: see "Bundlers" in the README of semblante`);
 }
+
+/** The first bytes of every WebAssembly file. A development server may answer with its page, and success, for what it does not have. */
+const wasmMagic = [0, 0x61, 0x73, 0x6d];

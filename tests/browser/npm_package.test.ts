@@ -1,10 +1,10 @@
 import { execFile } from 'node:child_process';
-import { mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
+import { mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, statSync, symlinkSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { promisify } from 'node:util';
 import { gzipSync } from 'node:zlib';
-import { build } from 'vite';
+import { build, createServer } from 'vite';
 import { afterAll, beforeAll, expect, test } from 'vitest';
 import { buildDir, root } from './support/paths.ts';
 import { patience } from './support/patience.ts';
@@ -64,6 +64,45 @@ test('Package_HasModulesAndDeclarations_AndNoSources', () => {
     expect(names).toContain(target.replace('./', ''));
 });
 
+/** webpack and others answer for some of Node's names and not for their values. */
+test('Package_HasNoNamesOfNode_ThatABundlerWouldAnswerFor', () => {
+  for (const name of files(unpacked).filter((one) => one.endsWith('.js'))) {
+    expect(readFileSync(join(unpacked, name), 'utf8'), name).not.toMatch(/__filename|__dirname|\bprocess\.|\brequire\(/);
+  }
+});
+
+test.each([
+  ['node16', 'node16'],
+  ['esnext', 'bundler'],
+  ['esnext', 'node10'],
+])('Package_TypeScript_%s_%s_FindsTheDeclarationsOfEveryEntry', async (module, moduleResolution) => {
+  const source = join(project, `types-${moduleResolution}`);
+  mkdirSync(join(source, 'node_modules/@types'), { recursive: true });
+  symlinkSync(unpacked, join(source, 'node_modules/semblante'));
+  symlinkSync(join(root, 'web/node_modules/@types/three'), join(source, 'node_modules/@types/three'));
+  const { exports } = JSON.parse(readFileSync(join(unpacked, 'package.json'), 'utf8')) as { exports: Record<string, { types?: string }> };
+  const entries = Object.keys(exports).filter((name) => exports[name]!.types !== undefined);
+  writeFileSync(
+    join(source, 'use.ts'),
+    `${entries.map((name, i) => `import * as m${i} from '${name.replace('.', 'semblante')}';`).join('\n')}
+export const all = [${entries.map((_, i) => `m${i}`).join(', ')}];
+const face = document.createElement('semblante-face');
+face.addEventListener('statechange', (event) => console.log(event.detail.state.toUpperCase()));
+face.addEventListener('error', ({ detail: { code, message } }) => console.log(code, message));
+face.addEventListener('keydown', (event) => console.log(event.key));
+face.addEventListener('mine', (event) => console.log(event.type));
+`,
+  );
+  writeFileSync(join(source, 'package.json'), '{"type":"module"}');
+  const compilerOptions = { module, moduleResolution, target: 'es2022', lib: ['es2022', 'dom'], strict: true, skipLibCheck: true, noEmit: true, types: [] };
+  writeFileSync(join(source, 'tsconfig.json'), JSON.stringify({ compilerOptions, files: ['use.ts'] }));
+  const faults = await run(process.execPath, [join(root, 'web/node_modules/typescript/lib/tsc.js'), '-p', source]).then(
+    () => '',
+    (error: { stdout: string }) => error.stdout,
+  );
+  expect(faults).toBe('');
+});
+
 test('Package_ClientWithLibrary_IsAtMost60kBGzipped', () => {
   const library = gzipSync(readFileSync(join(unpacked, 'dist/semblante_view.wasm')), { level: 9 }).length;
   expect(gzipped('index.js') + library).toBeLessThanOrEqual(60_000);
@@ -110,7 +149,7 @@ console.log(JSON.stringify([take.frames.length, take.frames[5].state.viseme, jaw
 });
 
 /** Opens a page of the project, which the real server serves, and waits until its face moves. */
-async function moves(path: string): Promise<void> {
+async function moves(path: string, origin = server.url): Promise<void> {
   const browser = await launch();
   try {
     const page = await browser.newPage();
@@ -120,7 +159,7 @@ async function moves(path: string): Promise<void> {
     page.on('console', (message) => {
       if (message.type() === 'error' && !message.location().url.endsWith('/favicon.ico')) errors.push(message.text());
     });
-    await page.goto(server.url + path, { timeout: patience });
+    await page.goto(origin + path, { timeout: patience });
     await page.waitForFunction(() => (document.querySelector('semblante-face') as { state?: string } | null)?.state === 'playing');
     expect(errors).toEqual([]);
   } finally {
@@ -144,4 +183,27 @@ test('Package_BuiltByVite_ShowsAMovingFace', async () => {
   writeFileSync(join(source, 'main.js'), "import 'semblante/element';");
   await build({ root: source, base: './', logLevel: 'error', configFile: false, build: { outDir: join(project, 'built'), assetsInlineLimit: 0 } });
   await moves('/built/');
+});
+
+/** The setting of the README: without it this Vite moves the modules away from their WebAssembly. */
+test('Package_InVitesDevelopmentServer_ShowsAMovingFace', async () => {
+  const source = join(project, 'development');
+  mkdirSync(source);
+  writeFileSync(join(source, 'index.html'), '<!doctype html><script type="module" src="./main.js"></script><semblante-face stream="demo"></semblante-face>');
+  writeFileSync(join(source, 'main.js'), "import 'semblante/element';");
+  const proxied = { target: server.url, ws: true, changeOrigin: true, rewriteWsOrigin: true };
+  const development = await createServer({
+    root: source,
+    configFile: false,
+    logLevel: 'error',
+    optimizeDeps: { exclude: ['semblante'] },
+    server: { host: '127.0.0.1', port: 0, hmr: false, fs: { allow: [project] }, proxy: { '/v1': proxied } },
+  });
+  try {
+    await development.listen();
+    const address = development.httpServer!.address() as { port: number };
+    await moves('/', `http://127.0.0.1:${address.port}`);
+  } finally {
+    await development.close();
+  }
 });

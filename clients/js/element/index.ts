@@ -1,6 +1,6 @@
 import { SemblanteFace } from './semblante_face.ts';
 
-export { SemblanteFace, type Connection, type FaceState } from './semblante_face.ts';
+export { SemblanteFace, type Connection, type FaceEventMap, type FaceState } from './semblante_face.ts';
 
 export const elementName = 'semblante-face';
 

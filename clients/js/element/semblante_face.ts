@@ -3,7 +3,7 @@ import type { QualityName } from './detail.ts';
 import { FaceShow, type ShowState } from './face_show.ts';
 import type { Source } from './loader.ts';
 import { styleText } from './style.ts';
-import { FaceTrouble } from './words.ts';
+import { FaceTrouble, type Trouble } from './words.ts';
 
 export type FaceState = ShowState | 'idle';
 
@@ -29,6 +29,29 @@ function styles(): CSSStyleSheet {
 
 // Node has no elements; a page that is rendered there can import this module all the same.
 const Base = (globalThis as { HTMLElement?: typeof HTMLElement }).HTMLElement ?? (class {} as typeof HTMLElement);
+
+/** Events of the element. */
+export interface FaceEventMap {
+  ready: CustomEvent<null>;
+  playing: CustomEvent<null>;
+  stalled: CustomEvent<null>;
+  ended: CustomEvent<null>;
+  error: CustomEvent<{ code: Trouble; message: string }>;
+  levelchange: CustomEvent<{ lod: number; vertices: number }>;
+  statechange: CustomEvent<{ state: FaceState; message: string }>;
+}
+
+type OtherEvents = Omit<HTMLElementEventMap, keyof FaceEventMap>;
+
+/** Declarations alone: the types of the events for those who listen. */
+export interface SemblanteFace {
+  addEventListener<Name extends keyof FaceEventMap>(type: Name, listener: (this: SemblanteFace, event: FaceEventMap[Name]) => unknown, options?: boolean | AddEventListenerOptions): void;
+  addEventListener<Name extends keyof OtherEvents>(type: Name, listener: (this: SemblanteFace, event: OtherEvents[Name]) => unknown, options?: boolean | AddEventListenerOptions): void;
+  addEventListener(type: string, listener: EventListenerOrEventListenerObject, options?: boolean | AddEventListenerOptions): void;
+  removeEventListener<Name extends keyof FaceEventMap>(type: Name, listener: (this: SemblanteFace, event: FaceEventMap[Name]) => unknown, options?: boolean | EventListenerOptions): void;
+  removeEventListener<Name extends keyof OtherEvents>(type: Name, listener: (this: SemblanteFace, event: OtherEvents[Name]) => unknown, options?: boolean | EventListenerOptions): void;
+  removeEventListener(type: string, listener: EventListenerOrEventListenerObject, options?: boolean | EventListenerOptions): void;
+}
 
 /**
  * `<semblante-face src stream>`: a face that follows a stream. README.md lists attributes, properties, methods and

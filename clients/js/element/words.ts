@@ -24,7 +24,7 @@ export class FaceTrouble extends Error {
 export const troubleWords: Record<Trouble, (name: string) => string> = {
   'no-stream': (name) => `There is no stream “${name}” on this server.`,
   'no-model': (name) => `The stream “${name}” has no face yet. It is shown as soon as a model is chosen for it.`,
-  'model-unready': () => 'This face is still being prepared.',
+  'model-unready': () => 'There is no such face, or it is still being prepared.',
   private: () => 'This stream is private. Open it with the link of your invitation.',
   unreachable: () => 'The server cannot be reached. Trying again.',
   server: () => 'The server has a problem. Trying again.',

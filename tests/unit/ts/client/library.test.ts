@@ -4,7 +4,8 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { gzipSync } from 'node:zlib';
-import { describe, expect, it } from 'vitest';
+import { describe, expect, it, vi } from 'vitest';
+import { bytesOf } from '../../../../clients/js/wasm.ts';
 import * as layouts from '../../../../clients/js/generated/layouts.ts';
 import { listenPath, motionPath, speakPath, viewPath, wholePath } from '../support/runtime.ts';
 
@@ -13,6 +14,24 @@ const root = fileURLToPath(new URL('../../../..', import.meta.url));
 /** "timedFrameLayout" -> "semblante_timed_frame". */
 const structName = (layout: string): string =>
   `semblante_${layout.replace(/Layout$/, '').replace(/[A-Z]/g, (letter) => `_${letter.toLowerCase()}`)}`;
+
+describe('bytesOf', () => {
+  const answer = async (response: Response): Promise<string> => {
+    const fetched = vi.spyOn(globalThis, 'fetch').mockResolvedValue(response);
+    try {
+      return await bytesOf(new URL('http://page/x.wasm')).then(({ length }) => `${length} bytes`, String);
+    } finally {
+      fetched.mockRestore();
+    }
+  };
+
+  it('FileThatTheBundlerLeftBehind_SaysWhereToRead', async () => {
+    expect(await answer(new Response(new Uint8Array([0, 0x61, 0x73, 0x6d, 1])))).toBe('5 bytes');
+    const hint = 'The bundler has left this file behind: see "Bundlers" in the README of semblante';
+    expect(await answer(new Response('<!doctype html>'))).toBe(`Error: http://page/x.wasm: a page, not WebAssembly. ${hint}`);
+    expect(await answer(new Response('', { status: 404 }))).toBe(`Error: http://page/x.wasm: status 404. ${hint}`);
+  });
+});
 
 describe('libsemblante in WebAssembly', () => {
   it.each([

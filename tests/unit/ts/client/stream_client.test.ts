@@ -70,6 +70,22 @@ describe('StreamClient', () => {
     expect(events.map(([name]) => name)).toEqual(['state', 'header', 'state']);
   });
 
+  it('Connect_AddressThatIsNone_IsAFaultAndNoAttemptMore', () => {
+    const { stream, events } = client({
+      WebSocket: class {
+        constructor() {
+          throw new SyntaxError('the scheme garbage is not allowed');
+        }
+      } as unknown as NonNullable<StreamOptions['WebSocket']>,
+    });
+    stream.connect();
+    expect(stream.state).toBe('closed');
+    const faults = events.filter(([name]) => name === 'fault').map(([, fault]) => (fault as Error).message);
+    expect(faults).toEqual(['ws://x/v1/streams/demo: the scheme garbage is not allowed']);
+    vi.advanceTimersByTime(60_000);
+    expect(events.filter(([name]) => name === 'fault')).toHaveLength(1);
+  });
+
   it('Receive_KeyframeAndFrames_EmitsThem', () => {
     const { stream, events } = client();
     stream.connect();
