@@ -64,7 +64,7 @@ std::vector<std::uint8_t> likeliest(const std::vector<std::array<float, viseme_c
 Utterance hear(Recording sound) {
   const auto path = likeliest(probabilities_of(sound));
   Utterance heard;
-  heard.voice = "recording";
+  heard.voice = "recording, heard by its sound";
   heard.sample_rate = sound.sample_rate;
   heard.duration = 1000.0 * static_cast<double>(sound.samples.size()) / sound.sample_rate;
   heard.samples = std::move(sound.samples);

@@ -11,6 +11,7 @@ product_packages=(build-essential cmake ninja-build pkg-config
   'libboost1.81-dev|libboost-dev|libboost1.74-dev|libboost1.83-dev|libboost1.88-dev' libssl-dev zlib1g-dev libzip-dev libsqlite3-dev
   libwebp-dev libtinygltf-dev libdraco-dev libmeshoptimizer-dev libstb-dev nlohmann-json3-dev libglm-dev libcli11-dev libqrencode-dev libseccomp-dev
   libopus-dev libogg-dev libsndfile1-dev libsamplerate0-dev libespeak-ng-dev
+  libpocketsphinx-dev pocketsphinx-en-us
   'clang|clang-14' 'lld|lld-14' wasi-libc 'libc++-14-dev-wasm32|libc++-dev-wasm32|libc++-18-dev-wasm32'
   'libc++abi-14-dev-wasm32|libc++abi-dev-wasm32|libc++abi-18-dev-wasm32'
   'libclang-rt-14-dev-wasm32|libclang-rt-dev-wasm32|libclang-rt-18-dev-wasm32' binaryen curl ca-certificates)

@@ -49,6 +49,7 @@ struct ApiConfig {
   Security security = {};
   voice::VoiceProgram voice = {};         ///< empty command: the server has no voice
   voice::VoiceProgram sound_reader = {};  ///< empty command: it reads WAV alone
+  voice::VoiceProgram recognizer = {};    ///< empty command: it hears no words
 };
 
 /// Writes the counts of the network layer into /metrics.

@@ -280,6 +280,7 @@ http::Response create_from_form(Context& context, http::Request& request) {
     wish.format = static_cast<TimelineFormat>(choice_member(body, "format", timeline_format_names, 0));
   read_manner(body, wish);
   wish.sound_reader = context.config.sound_reader;
+  wish.recognizer = context.config.recognizer;
   if (aligned) {
     if (wish.format) refuse("invalid-field", "is of a timeline, which the form does not have", "/format");
     if (!wish.text.empty()) refuse_without_voice(context);
@@ -292,6 +293,7 @@ http::Response create_from_form(Context& context, http::Request& request) {
     auto speech = aligned ? voice::make_speech(context.config.voice, said) : voice::make_speech(wish);
     if (!speech) {
       const Error& error = speech.error();
+      if (error.code == ErrorCode::io && error.where == "audio") refuse("voice-failed", error.message);
       const bool voices = error.code == ErrorCode::io || error.where.empty() || error.where == "voice";
       if (voices) refuse("voice-failed", "the voice: " + error.message);
       refuse("invalid-field", error.message, "/" + error.where);

@@ -247,6 +247,9 @@ void run_serve(const ServeOptions& options) {
   api_config.voice.temporary = blobs->temporary();
   api_config.sound_reader = api_config.voice;
   api_config.sound_reader.command = {voice::installed_sound_reader()};
+  api_config.recognizer = voice::recognizer_at(options.recognizer_program);
+  api_config.recognizer.wall_seconds = api_config.voice.wall_seconds;
+  api_config.recognizer.temporary = api_config.voice.temporary;
   // Half of the threads at most: the others handle what else is asked.
   api_config.limits.max_exports = api_config.limits.max_voices = std::max(1U, options.threads / 2);
   api_config.version = SEMBLANTE_VERSION;

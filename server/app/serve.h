@@ -31,7 +31,8 @@ struct ServeOptions {
   std::uint64_t max_streams = api::ApiLimits{}.max_streams;
   std::uint64_t max_expressions = api::ApiLimits{}.max_expressions;
   std::uint64_t max_speeches = api::ApiLimits{}.max_speeches;
-  std::string voice_program;  ///< empty: the installed voice, if there is one; "none"
+  std::string voice_program;       ///< empty: the installed voice, if there is one; "none"
+  std::string recognizer_program;  ///< likewise
   std::uint64_t max_recordings = recordings::RecorderLimits{}.max_recordings;
   std::uint64_t max_recording_bytes = recordings::RecorderLimits{}.max_bytes;
   std::uint64_t max_recordings_bytes = recordings::RecorderLimits{}.max_total_bytes;

@@ -74,6 +74,10 @@ void declare_serve_options(CLI::App& app, ServeOptions& declared) {
       "Program that speaks (server/voice/README.md); left out: semblante-voice-espeak beside this one, if it is there; "
       "none: no voice",
       "VOICE_PROGRAM");
+  add("--recognizer-program", options->recognizer_program,
+      "Program that hears words in recordings (server/voice/README.md); left out: semblante-recognizer-pocketsphinx "
+      "beside this one, if it is there; none: no words",
+      "RECOGNIZER_PROGRAM");
   add("--max-streams", options->max_streams, "Maximum number of streams", "MAX_STREAMS")->check(count);
   add("--max-recordings", options->max_recordings, "Maximum number of stored recordings", "MAX_RECORDINGS")
       ->check(count);

@@ -24,8 +24,8 @@ namespace {
 
 struct SayCommand {
   voice::VoiceRequest request;
-  std::string text, program, out, audio, captions, emotion, style = "normal", timeline, timeline_format, audio_in,
-                                                            sound;
+  std::string text, program, recognizer, out, audio, captions, emotion, style = "normal", timeline, timeline_format,
+                                                                        audio_in, sound;
   double intensity = 1.0, fps = 30.0;
   std::uint32_t seed = 0;
   ClipOutput clip;
@@ -111,6 +111,7 @@ Result<voice::Speech> read_said(const SayCommand& options) {
   request.timeline = timeline;
   request.sound = sound;
   request.sound_reader.command = {voice::installed_sound_reader()};
+  request.recognizer = voice::recognizer_at(options.recognizer);
   if (!options.timeline_format.empty())
     request.format = static_cast<TimelineFormat>(
         std::find(timeline_format_names.begin(), timeline_format_names.end(), options.timeline_format) -
@@ -184,10 +185,15 @@ void add_say_command(CLI::App& app, const std::string& sample_head) {
       ->add_option(
           "--sound", options->sound,
           "A recording in place of a voice: WAV, or what semblante-sound beside this program reads (FLAC, Ogg with "
-          "Vorbis or Opus, MP3). With its text the voice says when in it is said what; without, visemes are heard in "
-          "it, in any language, without captions")
+          "Vorbis or Opus, MP3). With its text the voice says when in it is said what; without, a recognizer of "
+          "--language hears words in it, or, without one, visemes are heard, in any language, without captions")
       ->excludes(timeline)
       ->envname("SEMBLANTE_SOUND");
+  command
+      ->add_option("--recognizer-program", options->recognizer,
+                   "Program that hears words in --sound without a text; left out: semblante-recognizer-pocketsphinx "
+                   "beside this one, for English; none: no words")
+      ->envname("SEMBLANTE_RECOGNIZER_PROGRAM");
   command->add_option("--audio-in", options->audio_in, "The sound of --timeline, a file as of --sound")
       ->needs(timeline)
       ->envname("SEMBLANTE_AUDIO_IN");

@@ -96,6 +96,40 @@ bool is_blank(const std::string& text) {
   return marked && marked->text.find_first_not_of(" \t\n") == std::string::npos;
 }
 
+/// Makes the utterance of a sound whose text nobody gave; the text, as far as it is heard.
+std::string hear(const SaidRequest& request, Recording sound, Speech& speech) {
+  const double seconds = static_cast<double>(sound.samples.size()) / sound.sample_rate;
+  const bool asks = !request.recognizer.command.empty() && !request.recognizer.command[0].empty();
+  std::string reason;
+  if (asks && seconds > most_recognized_seconds) {
+    reason = "; words are recognized in up to " + std::to_string(std::lround(most_recognized_seconds)) + " s";
+  } else if (asks) {
+    auto heard = recognize(request.recognizer, sound, request.language);
+    if (heard && !heard->text.empty() && heard->confidence >= least_confidence) {
+      speech.utterance = std::move(heard->said);
+      speech.sounds = request.language;
+      speech.warnings.push_back("nobody gave the text: the words are those that " + speech.utterance.voice +
+                                " has heard, sure to " + std::to_string(std::lround(100.0 * heard->confidence)) +
+                                " %; mouths are those of the words");
+      if (!has_sound_table(speech.sounds)) speech.warnings.push_back(no_table_warning(speech.sounds));
+      speech.utterance.voice = "recording, heard by " + speech.utterance.voice;
+      speech.utterance.sample_rate = sound.sample_rate;
+      speech.utterance.samples = std::move(sound.samples);
+      return std::move(heard->text);
+    }
+    if (heard)
+      reason = "; the recognizer is not sure of any words";
+    else if (heard.error().where != "language")
+      reason = "; the recognizer failed: " + heard.error().message;
+  }
+  speech.utterance = semblante::hear(std::move(sound));
+  speech.sounds = sounds_of_visemes;
+  speech.warnings.push_back(
+      "nobody gave the text: mouths are as they are heard in the sound, six of ten moments right, without captions" +
+      reason);
+  return {};
+}
+
 SpeechOptions face_of(const SpeechRequest& request) {
   SpeechOptions face = request.face;
   face.language = request.voice.language;
@@ -215,9 +249,7 @@ Result<Speech> make_speech(const VoiceProgram& voice, const SaidRequest& request
   if (!sound) return in("audio", sound.error());
   Speech speech;
   if (request.text.empty()) {
-    speech.utterance = hear(*std::move(sound));
-    speech.sounds = sounds_of_visemes;
-    speech.warnings.emplace_back("nobody gave the text: mouths are as they are heard, and there are no captions");
+    marked.text = hear(request, *std::move(sound), speech);
   } else {
     VoiceRequest wish;
     wish.text = marked.text;

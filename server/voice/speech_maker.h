@@ -81,7 +81,12 @@ struct SaidRequest {
   double intensity = 1.0;       ///< of `expression`
   SpeechOptions face;           ///< its language is `language`
   VoiceProgram sound_reader = {};
+  VoiceProgram recognizer = {};  ///< for a sound without a text; empty command: none
 };
+/// A longer sound is not given to a recognizer, which needs a third of its length of processor time.
+inline constexpr double most_recognized_seconds = 60.0;
+/// Of words; a recognizer that is less sure has heard another language, or no speech.
+inline constexpr double least_confidence = 0.3;
 
 /// What another voice has said when.
 struct TimelineRequest : SaidRequest {  ///< without a text: what the timeline knows of it
@@ -94,8 +99,10 @@ struct TimelineRequest : SaidRequest {  ///< without a text: what the timeline k
 Result<Speech> make_speech(const TimelineRequest& request);
 
 /// The face of a recording of the text, on its clock: `voice` speaks the text too, and what it says when is carried
-/// over (core/speech/alignment.h). Without a text no voice is started: the visemes are heard in the sound
-/// (core/speech/hearing.h), and there are no words. Errors: `where` begins with "audio", "text", "language" or "voice".
+/// over (core/speech/alignment.h). Without a text no voice is started: a recognizer that knows the language gives words
+/// and sounds; without one, or when it fails or is not sure, the visemes are heard in the sound
+/// (core/speech/hearing.h), and there are no words. A warning says which it was. Errors: `where` begins with "audio",
+/// "text", "language" or "voice".
 Result<Speech> make_speech(const VoiceProgram& voice, const SaidRequest& request);
 
 }  // namespace semblante::voice

@@ -1,5 +1,6 @@
 #include "server/voice/voice_process.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstring>
 #include <filesystem>
@@ -14,6 +15,7 @@ namespace {
 
 constexpr const char* usual_name = "semblante-voice-espeak";
 constexpr const char* sound_reader_name = "semblante-sound";
+constexpr const char* recognizer_name = "semblante-recognizer-pocketsphinx";
 
 /// What the voice writes to standard error, for as long as it runs.
 class ErrorFile {
@@ -44,8 +46,9 @@ std::string with_last_words(std::string message, const std::string& words) {
 
 bool is_missing(const VoiceProgram& program) { return program.command.empty() || program.command[0].empty(); }
 
-/// Has the program answer to its end.
-Result<VoiceAnswer> ask(const VoiceProgram& program, std::string_view input, const std::function<bool()>& wanted = {}) {
+/// Has the program answer to its end. `ended`: it was started and ended by itself, well or not, within its time.
+Result<VoiceAnswer> ask(const VoiceProgram& program, std::string_view input, const std::function<bool()>& wanted = {},
+                        bool* ended = nullptr) {
   const ErrorFile errors(program.temporary);
   if (errors.path().empty()) return Error{ErrorCode::io, "", "cannot make a temporary file"};
 
@@ -63,8 +66,9 @@ Result<VoiceAnswer> ask(const VoiceProgram& program, std::string_view input, con
       },
       [&] { return fault || (wanted && !wanted()) ? jobs::Wish::stop : jobs::Wish::go_on; }, limits);
   if (!exit) return exit.error();
-  if (fault) return *fault;
   using Kind = jobs::WorkerExit::Kind;
+  if (ended != nullptr) *ended = exit->kind != Kind::timed_out;
+  if (fault) return *fault;
   if (exit->kind == Kind::stopped) return Error{ErrorCode::cancelled, "voice", "is not wanted any more"};
   if (exit->kind == Kind::timed_out)
     return Error{ErrorCode::io, "voice", "took longer than " + std::to_string(program.wall_seconds) + " s"};
@@ -96,6 +100,14 @@ std::string installed(const char* name) {
 std::string installed_voice() { return installed(usual_name); }
 std::string installed_sound_reader() { return installed(sound_reader_name); }
 
+VoiceProgram recognizer_at(const std::string& path) {
+  VoiceProgram program;
+  program.command = {path == "none" ? "" : path.empty() ? installed(recognizer_name) : path};
+  // A library of linear algebra that pocketsphinx is linked with reserves addresses for each processor.
+  program.memory_bytes = std::uint64_t{4} << 30U;
+  return program;
+}
+
 Result<Utterance> speak(const VoiceProgram& program, const VoiceRequest& request, const std::function<bool()>& wanted) {
   if (const auto checked = check(request); !checked) return checked.error();
   auto answer = ask(program, request, wanted);
@@ -111,6 +123,19 @@ Result<std::vector<VoiceName>> list_voices(const VoiceProgram& program) {
   return (*std::move(answer)).finish_list();
 }
 
+Result<Heard> recognize(const VoiceProgram& program, const Recording& sound, std::string_view language) {
+  if (const auto checked = check_language(language); !checked) return checked.error();
+  if (is_missing(program)) return Error{ErrorCode::missing, "", "there is no recognizer"};
+  constexpr std::size_t samples_a_line = 16'384;
+  std::string input = header_line("recording", sound.sample_rate, language);
+  for (std::size_t at = 0; at < sound.samples.size(); at += samples_a_line)
+    input += audio_line(std::span(sound.samples).subspan(at, std::min(samples_a_line, sound.samples.size() - at)));
+  input += end_line();
+  auto answer = ask(program, input);
+  if (!answer) return answer.error();
+  return (*std::move(answer)).finish_heard(1000.0 * static_cast<double>(sound.samples.size()) / sound.sample_rate);
+}
+
 Result<Recording> read_sound(const VoiceProgram& reader, std::string_view file) {
   if (file.starts_with("RIFF")) return read_wav(file);
   if (file.size() > max_sound_file_bytes)
@@ -118,8 +143,10 @@ Result<Recording> read_sound(const VoiceProgram& reader, std::string_view file) 
   if (is_missing(reader))
     return Error{ErrorCode::unsupported, "",
                  "is no WAV file, and " + std::string(sound_reader_name) + ", which reads others, is not installed"};
-  auto answer = ask(reader, file);
-  // A reader that crashes or reaches a limit does so by the file.
+  bool ended = false;
+  auto answer = ask(reader, file, {}, &ended);
+  // A reader that crashes or uses up its processor time does so by the file; on a busy machine any file takes long.
+  if (!answer && !ended) return Error{ErrorCode::io, "", std::string(sound_reader_name) + " " + answer.error().message};
   if (!answer) return Error{ErrorCode::malformed, "", answer.error().message};
   auto sound = (*std::move(answer)).finish();
   if (!sound) return Error{ErrorCode::malformed, "", sound.error().message};

@@ -25,6 +25,9 @@ struct VoiceProgram {
 std::string installed_voice();
 /// The same of semblante-sound (sound/README.md), which reads sound files.
 std::string installed_sound_reader();
+/// The recognizer at this path; of an empty one semblante-recognizer-pocketsphinx (pocketsphinx/README.md) beside this
+/// program, if it is there; of "none" none.
+VoiceProgram recognizer_at(const std::string& path);
 
 /// Starts the voice, with its limits in force before it gets the request, and reads its answer. A voice that breaks the
 /// protocol is killed at the first wrong line. Blocks until the process has ended. Errors: those of check() and
@@ -36,8 +39,12 @@ Result<Utterance> speak(const VoiceProgram& program, const VoiceRequest& request
 /// The voices that the program knows. Errors as those of speak().
 Result<std::vector<VoiceName>> list_voices(const VoiceProgram& program);
 
+/// What the program hears in a sound of this language. Errors as those of speak(): `unsupported` with `where`
+/// "language" if it does not know the language.
+Result<Heard> recognize(const VoiceProgram& program, const Recording& sound, std::string_view language);
+
 /// The sound of a file, its channels mixed: of WAV, read here, or of what `reader` knows (FLAC, Ogg with Vorbis or
-/// Opus, MP3). Errors: of the file, or as those of speak().
+/// Opus, MP3). Errors: of the file; `io`: the reader cannot be started, or did not come to its end in time.
 Result<Recording> read_sound(const VoiceProgram& reader, std::string_view file);
 
 }  // namespace semblante::voice

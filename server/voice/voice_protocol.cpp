@@ -135,8 +135,10 @@ Result<VoiceRequest> request_from_json(std::string_view text) {
   return request;
 }
 
-std::string header_line(std::string_view name, std::uint32_t sample_rate) {
-  return line({{"protocol", protocol_version}, {"name", name}, {"sample_rate", sample_rate}});
+std::string header_line(std::string_view name, std::uint32_t sample_rate, std::string_view language) {
+  json header = {{"protocol", protocol_version}, {"name", name}, {"sample_rate", sample_rate}};
+  if (!language.empty()) header["language"] = language;
+  return line(header);
 }
 
 std::string audio_line(std::span<const std::int16_t> samples) {
@@ -162,6 +164,9 @@ std::string line_of(const SpokenSentence& sentence) {
 std::string line_of(const SpokenMark& mark) { return line({{"mark", mark.name}, {"time", mark.time}}); }
 std::string line_of(const VoiceName& name) {
   return line({{"voice", name.voice}, {"label", name.label}, {"language", name.language}});
+}
+std::string heard_line(std::string_view text, double confidence) {
+  return line({{"heard", text}, {"confidence", confidence}});
 }
 std::string end_line() { return line({{"end", true}}); }
 std::string error_line(std::string_view message, std::string_view member) {
@@ -193,7 +198,9 @@ Status VoiceAnswer::take(std::string_view text) {
     utterance_.voice = printable(root.member("name").text(max_name_bytes));
     utterance_.sample_rate =
         static_cast<std::uint32_t>(root.member("sample_rate").integer(least_sample_rate, most_sample_rate));
+    language_ = root.text_or("language", "");
     if (report) return failed();
+    if (!language_.empty() && !check_language(language_)) return refused(ErrorCode::malformed, "language", "is no tag");
     begun_ = true;
     return Unit{};
   }
@@ -204,6 +211,14 @@ Status VoiceAnswer::take(std::string_view text) {
   }
   if (const auto end = root.optional_member("end")) {
     ended_ = true;
+    return Unit{};
+  }
+  if (const auto heard = root.optional_member("heard")) {
+    heard_ = heard->text(max_text_bytes);
+    confidence_ = root.member("confidence").number(0.0, 1.0);
+    if (report) return failed();
+    if (const auto checked = check_text(heard_); !checked && !heard_.empty())
+      return refused(checked.error().code, "heard", checked.error().message);
     return Unit{};
   }
   if (const auto name = root.optional_member("voice")) {
@@ -261,12 +276,25 @@ Result<Utterance> VoiceAnswer::finish() && {
   if (!ended_) return refused(ErrorCode::truncated, "", "has no end");
   if (utterance_.samples.empty()) return refused(ErrorCode::empty, "audio", "there is no sound");
   utterance_.duration = 1000.0 * static_cast<double>(utterance_.samples.size()) / utterance_.sample_rate;
+  if (const auto checked = check_events_end(); !checked) return checked.error();
+  return std::move(utterance_);
+}
+
+Result<Heard> VoiceAnswer::finish_heard(double duration) && {
+  if (!ended_) return refused(ErrorCode::truncated, "", "has no end");
+  if (!utterance_.samples.empty()) return refused(ErrorCode::malformed, "audio", "what is heard has no sound");
+  utterance_.duration = duration;
+  if (const auto checked = check_events_end(); !checked) return checked.error();
+  return Heard{std::move(utterance_), std::move(heard_), confidence_};
+}
+
+Status VoiceAnswer::check_events_end() const {
   const auto past = [this](const auto& events) {
     return !events.empty() && events.back().time > utterance_.duration + 1000.0;
   };
   if (past(utterance_.phonemes) || past(utterance_.words) || past(utterance_.sentences) || past(utterance_.marks))
     return refused(ErrorCode::out_of_range, "time", "an event comes after the sound");
-  return std::move(utterance_);
+  return Unit{};
 }
 
 }  // namespace semblante::voice

@@ -49,16 +49,26 @@ std::string to_json(const VoiceRequest& request);
 Result<VoiceRequest> request_from_json(std::string_view text);
 
 // ---- lines of the answer, as a voice writes them; each ends with a newline
-std::string header_line(std::string_view name, std::uint32_t sample_rate);
+/// `language`: of a sound that a recognizer gets.
+std::string header_line(std::string_view name, std::uint32_t sample_rate, std::string_view language = "");
 std::string audio_line(std::span<const std::int16_t> samples);
 std::string line_of(const SpokenPhoneme& phoneme);
 std::string line_of(const SpokenWord& word);
 std::string line_of(const SpokenSentence& sentence);
 std::string line_of(const SpokenMark& mark);
 std::string line_of(const VoiceName& name);
+/// What a recognizer has heard; `confidence`: 0..1, how sure it is of the words.
+std::string heard_line(std::string_view text, double confidence);
 std::string end_line();
 /// `member` of the request that the voice cannot serve ("language", "voice", "text"); empty: none of them is to blame.
 std::string error_line(std::string_view message, std::string_view member = "");
+
+/// What a recognizer has heard in a sound.
+struct Heard {
+  Utterance said;           ///< its events, in characters of `text`; no samples
+  std::string text;         ///< empty: no word
+  double confidence = 0.0;  ///< 0..1: how sure it is of the words
+};
 
 /// Reads an answer line by line. A voice is another's program: every line is checked.
 class VoiceAnswer {
@@ -70,12 +80,19 @@ class VoiceAnswer {
   Result<Utterance> finish() &&;
   /// The voices, once `end` has come, of an answer to a request with `list`.
   Result<std::vector<VoiceName>> finish_list() &&;
+  /// What was heard in a sound of this duration, ms, once `end` has come, of a recognizer's answer.
+  Result<Heard> finish_heard(double duration) &&;
+  /// Of the header; empty if it names none. A recognizer reads it.
+  [[nodiscard]] const std::string& language() const { return language_; }
 
  private:
   Status take_audio(std::string_view base64);
+  [[nodiscard]] Status check_events_end() const;
 
   Utterance utterance_;
   std::vector<VoiceName> voices_;
+  std::string language_, heard_;
+  double confidence_ = 0.0;
   std::size_t events_ = 0;
   bool begun_ = false, ended_ = false;
 };

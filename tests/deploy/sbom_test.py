@@ -16,8 +16,8 @@ LICENCE = re.compile(r"[A-Za-z0-9.-]+( (WITH|OR|AND) [A-Za-z0-9.-]+)*")
 INCLUDED = {"boost/": "libboost", "nlohmann/": "nlohmann-json3-dev", "glm/": "libglm-dev", "CLI/": "libcli11-dev", "tiny_gltf.h": "libtinygltf-dev",
             "stb/": "libstb-dev", "openssl/": "libssl", "opus.h": "libopus", "ogg/": "libogg", "samplerate.h": "libsamplerate", "qrencode.h": "libqrencode", "sqlite3.h": "libsqlite3", "zlib.h": "zlib1g", "zip.h": "libzip", "webp/": "libwebp",
             "meshoptimizer.h": "libmeshoptimizer", "draco/": "libdraco", "OpenMesh/": "libopenmesh"}
-# A program of its own, under the licence of its library; in a package of its own.
-APART = "server/voice/espeak"
+# Programs of their own, each in a package of its own; that of the voice is under the licence of its library.
+APART = ("server/voice/espeak", "server/voice/pocketsphinx", "server/voice/sound")
 SYSTEM = re.compile(r"(sys|net|netinet|arpa|linux|asm)/|[a-z0-9_]+(\.h)?$")
 
 
@@ -87,11 +87,24 @@ class Sbom(unittest.TestCase):
         loaded = set(re.findall(r"^\s*(?:\S*/)?(\S+?)(?: =>.*)? \(0x", run("ldd", BUILD / "bin/semblante-voice-espeak").stdout, re.MULTILINE))
         self.assertEqual(listed, loaded - {"linux-vdso.so.1"})
 
+    def test_the_other_programs_apart_are_listed_with_their_libraries(self):
+        for name, program, library in (("sound", "semblante-sound", "libsndfile1"), ("recognizer", "semblante-recognizer-pocketsphinx", "libpocketsphinx3")):
+            with self.subTest(name):
+                if not (BUILD / "bin" / program).is_file():
+                    self.skipTest(f"{program} is not built")
+                packages = {package["name"]: package for package in self.documents[name]["packages"]}
+                self.assertEqual(packages[name]["licenseConcluded"], "Apache-2.0")
+                self.assertIn(library, packages)
+                self.assertNotIn(library, self.names("semblante"))
+                listed = {one for package in packages.values() for one in package.get("comment", "").split()}
+                loaded = set(re.findall(r"^\s*(?:\S*/)?(\S+?)(?: =>.*)? \(0x", run("ldd", BUILD / "bin" / program).stdout, re.MULTILINE))
+                self.assertEqual(listed, loaded - {"linux-vdso.so.1"})
+
     def test_every_include_of_the_program(self):
         used, unknown = set(), set()
         for layer in ("core", "protocol", "server"):
             for path in (TOP / layer).rglob("*"):
-                if path.suffix not in (".h", ".cpp", ".c") or "/codegen/" in str(path) or path.is_relative_to(TOP / APART):
+                if path.suffix not in (".h", ".cpp", ".c") or "/codegen/" in str(path) or any(path.is_relative_to(TOP / folder) for folder in APART):
                     continue
                 for name in re.findall(r"^\s*#\s*include <([^>]+)>", path.read_text(encoding="utf-8"), re.MULTILINE):
                     component = next((known for begin, known in INCLUDED.items() if name.startswith(begin)), None)

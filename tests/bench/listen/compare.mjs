@@ -198,23 +198,50 @@ if (packages && existsSync(join(packages, 'wawa-lipsync'))) {
   };
 }
 
-/** Phones by pocketsphinx without words, which knows English and the whole recording. */
-function byPocketsphinx(folder) {
-  const model = '/usr/share/pocketsphinx/model/en-us';
-  if (!existsSync(model)) return null;
+/** The visemes of recordings whose label tracks `trackOf` makes, as rows [begin, end, IPA], s; null if it makes none. */
+function labelsOfTracks(folder, trackOf) {
   const copy = mkdtempSync(join(tmpdir(), 'listen-'));
-  const ipa = JSON.parse(execFileSync('python3', ['-c', 'import json; from cmu import CMU; print(json.dumps(CMU))'], { cwd: join(root, 'core/listen/train') }));
   for (const name of readdirSync(folder).filter((one) => one.endsWith('.wav'))) {
+    const rows = trackOf(join(folder, name));
+    if (!rows) return null;
     copyFileSync(join(folder, name), join(copy, name));
-    const told = spawnSync('pocketsphinx_continuous', ['-infile', join(folder, name), '-hmm', `${model}/en-us`, '-allphone', `${model}/en-us-phone.lm.bin`,
-      '-time', 'yes', '-logfn', '/dev/null', '-remove_silence', 'no', '-lw', '2.0', '-beam', '1e-20', '-pbeam', '1e-20'], { encoding: 'utf8' });
-    if (told.error) return null; // it is not installed
-    const rows = told.stdout.split('\n').map((line) => line.trim().split(/\s+/)).filter((row) => row.length === 4);
-    writeFileSync(join(copy, name.replace('.wav', '.txt')), rows.map(([phone, begin, end]) => `${begin}\t${(Number(end) + 0.01).toFixed(3)}\t${ipa[phone.toLowerCase()] ?? ''}\n`).join(''));
+    writeFileSync(join(copy, name.replace('.wav', '.txt')), rows.map(([begin, end, ipa]) => `${begin}\t${end.toFixed(3)}\t${ipa}\n`).join(''));
   }
   const labels = labelsOf(copy);
   rmSync(copy, { recursive: true });
   return labels;
+}
+
+/** Phones by pocketsphinx without words, which knows English and the whole recording. */
+function byPocketsphinx(folder) {
+  const model = '/usr/share/pocketsphinx/model/en-us';
+  if (!existsSync(model)) return null;
+  const ipa = JSON.parse(execFileSync('python3', ['-c', 'import json; from cmu import CMU; print(json.dumps(CMU))'], { cwd: join(root, 'core/listen/train') }));
+  return labelsOfTracks(folder, (path) => {
+    const told = spawnSync('pocketsphinx_continuous', ['-infile', path, '-hmm', `${model}/en-us`, '-allphone', `${model}/en-us-phone.lm.bin`,
+      '-time', 'yes', '-logfn', '/dev/null', '-remove_silence', 'no', '-lw', '2.0', '-beam', '1e-20', '-pbeam', '1e-20'], { encoding: 'utf8' });
+    if (told.error) return null; // it is not installed
+    const rows = told.stdout.split('\n').map((line) => line.trim().split(/\s+/)).filter((row) => row.length === 4);
+    return rows.map(([phone, begin, end]) => [begin, Number(end) + 0.01, ipa[phone.toLowerCase()] ?? '']);
+  });
+}
+
+/** Sounds of the words that semblante-recognizer-pocketsphinx hears. */
+function byWords(folder) {
+  const program = join(build, 'bin/semblante-recognizer-pocketsphinx');
+  if (!existsSync(program)) return null;
+  return labelsOfTracks(folder, (path) => {
+    const { rate, samples } = readWav(path);
+    const bytes = Buffer.from(Int16Array.from(samples, (value) => 32768 * value).buffer);
+    const lines = [{ protocol: 1, name: 'recording', sample_rate: rate, language: 'en' }];
+    for (let at = 0; at < bytes.length; at += 32_768) lines.push({ audio: bytes.subarray(at, at + 32_768).toString('base64') });
+    lines.push({ end: true });
+    const input = lines.map((line) => `${JSON.stringify(line)}\n`).join('');
+    const answer = execFileSync(program, { input, encoding: 'utf8' }).trim().split('\n').map((line) => JSON.parse(line));
+    const phones = answer.filter((line) => line.phoneme !== undefined);
+    const end = samples.length / rate;
+    return phones.map(({ phoneme, time }, n) => [time / 1000, n + 1 < phones.length ? phones[n + 1].time / 1000 : end, phoneme]);
+  });
 }
 
 /** What lips tell apart, by viseme: rest, closed, lip on teeth, other consonants, open vowels, round vowels. */
@@ -260,6 +287,8 @@ for (const folder of sets) {
   for (const [name, hear] of Object.entries(contestants))
     tell(name, new Map([...recordings].map(([file, sound]) => [file, hear(sound, labels.get(file).length)])));
   tell('silence', new Map([...labels].map(([file, said]) => [file, new Int8Array(said.length)])));
-  const phones = byPocketsphinx(folder);
-  if (phones) tell('pocketsphinx, phones', phones);
+  for (const [name, hear] of [['recognizer, words', byWords], ['pocketsphinx, phones', byPocketsphinx]]) {
+    const heard = hear(folder);
+    if (heard) tell(name, heard);
+  }
 }

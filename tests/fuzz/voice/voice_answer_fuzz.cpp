@@ -41,12 +41,20 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return line;
   };
   const auto text = next_line();
-  voice::VoiceAnswer answer;
+  voice::VoiceAnswer answer, of_recognizer;
   while (!input.empty()) {
-    if (const auto taken = answer.take(next_line()); !taken) {
+    const auto line = next_line();
+    if (const auto taken = answer.take(line); !taken) {
       expect(!taken.error().message.empty());
       return 0;
     }
+    expect(of_recognizer.take(line).ok());
+  }
+  if (const auto heard = std::move(of_recognizer).finish_heard(past_the_sound)) {
+    expect(heard->confidence >= 0.0 && heard->confidence <= 1.0 && heard->said.samples.empty());
+    expect(heard->text.empty() || voice::check_text(heard->text).ok());
+    expect_in_order(heard->said.words, past_the_sound);
+    expect(web_vtt(heard->said, heard->text).starts_with("WEBVTT"));
   }
   const auto utterance = std::move(answer).finish();
   if (!utterance) return 0;

@@ -2,6 +2,7 @@
 
 #include <csignal>
 #include <filesystem>
+#include <fstream>
 #include <thread>
 
 #include <gmock/gmock.h>
@@ -40,7 +41,7 @@ class Speeches : public ::testing::Test {
  protected:
   [[nodiscard]] fs::path data() const { return folder_.path() / "data"; }
   void start(std::vector<std::string> options = {}, const std::string& program = beeps) {
-    options.insert(options.end(), {"--voice-program", program});
+    options.insert(options.end(), {"--voice-program", program, "--recognizer-program", recognizer_});
     server_ = std::make_unique<ServerProcess>(data(), options);
   }
   [[nodiscard]] Reply ask(const std::string& method, const std::string& target, const std::string& body = {},
@@ -56,6 +57,7 @@ class Speeches : public ::testing::Test {
     return reply.headers.contains("location") ? reply.headers.at("location") : "";
   }
 
+  std::string recognizer_ = "none";
   const json hello_ = {{"text", "Mamma mia! :)"}, {"language", "en"}, {"seed", 7}};
   TemporaryFolder folder_;
   std::unique_ptr<ServerProcess> server_;
@@ -289,6 +291,40 @@ TEST_F(Speeches, ARecordingWithItsText_BecomesAFaceOnItsClock) {
   server_.reset();
   start({}, "/bin/false");
   expect_problem(send(options, sound), 502, "voice-failed");
+}
+
+TEST_F(Speeches, ARecordingWithoutItsText_HasTheWordsOfTheRecognizer_WhichNeedsNoVoice) {
+  start();
+  const std::string sound = ask("GET", path_of(say(hello_)) + "/audio").body;
+  server_.reset();
+  recognizer_ = (folder_.path() / "recognizer").string();
+  std::ofstream(recognizer_) << R"sh(#!/bin/sh
+if head -n 1 | grep -q '"language":"en"'; then
+  echo '{"protocol":1,"name":"fake","sample_rate":16000}'
+  echo '{"heard":"mamma mia","confidence":0.75}'
+  echo '{"word":[0,5],"time":120}'; echo '{"word":[6,3],"time":600}'
+  echo '{"phoneme":"m","time":120}'; echo '{"phoneme":"a","time":300}'; echo '{"phoneme":"i","time":700}'
+  echo '{"end":true}'
+else
+  echo '{"error":"English alone","of":"language"}'
+fi
+cat > /dev/null
+)sh";
+  fs::permissions(recognizer_, fs::perms::owner_all);
+  start({}, "none");
+  const auto send = [&](const json& options) {
+    return ask("POST", "/v1/speeches", form_of({{"options", options.dump()}, {"audio", sound}}), form_type);
+  };
+  const auto made = send({{"language", "en"}});
+  const auto path = path_of(made);
+  EXPECT_EQ(json_of(made)["made_by"], "recording, heard by fake");
+  EXPECT_EQ(json_of(made)["text"], "mamma mia");
+  EXPECT_NE(json_of(made)["warnings"][0].get<std::string>().find("75 %"), std::string::npos);
+  EXPECT_NE(ask("GET", path + "/captions").body.find("mamma <00:00:00.600>mia"), std::string::npos);
+  EXPECT_TRUE(ask("GET", path + "/audio").body == sound);
+  const auto other = send({{"language", "pt-BR"}});
+  EXPECT_EQ(json_of(other)["made_by"], "recording, heard by its sound");
+  EXPECT_EQ(json_of(other)["text"], "");
 }
 
 TEST_F(Speeches, WithoutAVoice_OrWithOneThatFails_TheRestWorks) {

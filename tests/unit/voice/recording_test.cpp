@@ -92,6 +92,21 @@ TEST(SoundReader, Missing_LeavesWav) {
   EXPECT_EQ(read_sound({}, wav(silence))->samples.size(), 80U);
 }
 
+TEST(SoundReader, ThatTakesTooLong_IsNoFaultOfTheFile_ThatCrashesIs) {
+  const auto by = [](const char* line) {
+    VoiceProgram program;
+    program.command = {"/bin/sh", "-c", line};
+    program.wall_seconds = 1;
+    return read_sound(program, "fLaC").error();
+  };
+  const Error slow = by("sleep 20"), crashed = by("cat > /dev/null; kill -SEGV $$");
+  EXPECT_EQ(slow.code, ErrorCode::io);
+  EXPECT_EQ(slow.message, "semblante-sound took longer than 1 s");
+  EXPECT_EQ(crashed.code, ErrorCode::malformed);
+  EXPECT_EQ(by("cat > /dev/null; echo nonsense; sleep 20").code, ErrorCode::malformed);
+  EXPECT_EQ(read_sound({.command = {"/nonexistent"}}, "fLaC").error().code, ErrorCode::io);
+}
+
 #ifdef SEMBLANTE_VOICE_ESPEAK
 
 const VoiceProgram own_voice = {.command = {SEMBLANTE_VOICE_ESPEAK}};

@@ -774,7 +774,7 @@ export interface paths {
         put?: never;
         /**
          * Have a text spoken, or take a recording or what another voice has spoken, and keep its sound and its face
-         * @description A voice, a program of its own, makes the sound of a text; the face is a performance on the same clock. Without an installed voice: 501, `no-voice`. Emoticons, emoji and spans as [joy]...[/joy] or <emotion name="joy">...</emotion> in the text give the face an emotion. What another voice has spoken is a form with its timeline and, if there is one, its sound; it needs no installed voice. A recording is a form with its sound and, in `options`, its text: the installed voice speaks the text too, and what it says when is carried over to the recording; no silence is added. Without its text, visemes are heard in the sound, in any language and without a voice: less exactly, and without captions.
+         * @description A voice, a program of its own, makes the sound of a text; the face is a performance on the same clock. Without an installed voice: 501, `no-voice`. Emoticons, emoji and spans as [joy]...[/joy] or <emotion name="joy">...</emotion> in the text give the face an emotion. What another voice has spoken is a form with its timeline and, if there is one, its sound; it needs no installed voice. A recording is a form with its sound and, in `options`, its text: the installed voice speaks the text too, and what it says when is carried over to the recording; no silence is added. Without its text, in a language that an installed recognizer knows (English by `semblante-recognizer-pocketsphinx`), it hears words, which become text, captions and mouths; otherwise, and when it fails, is not sure, or gets more than 60 s, visemes are heard in the sound, in any language and without a voice: less exactly, and without captions. `made_by` says which it was, a warning how good that is.
          */
         post: operations["createSpeech"];
         delete?: never;
@@ -1133,7 +1133,7 @@ export interface components {
              * @enum {unknown}
              */
             format?: "semblante" | "azure" | "polly" | "rhubarb" | "headtts" | "phonemes";
-            /** @description What is said, for words, captions and emotions; left out: what the timeline knows of it, of a recording nothing. At most 20,000 bytes, without control characters except tab and newline */
+            /** @description What is said, for words, captions and emotions; left out: what the timeline knows of it, of a recording what a recognizer hears. At most 20,000 bytes, without control characters except tab and newline */
             text?: string;
             /** @description BCP 47, of the text; und: unknown. Phonemes are read by its table; visemes are those of their system in every language */
             language: string;
@@ -1222,7 +1222,7 @@ export interface components {
             text: string;
             /** @description Of a request with `part`: the text, with its marks, that this speech does not say */
             rest: string;
-            /** @description The voice, with its version; of a timeline, its format */
+            /** @description The voice, with its version; of a timeline, its format; of a recording with its text `recording`, without it `recording, heard by` a recognizer or `its sound` */
             made_by: string;
             /** @description ms of sound */
             duration: number;
@@ -4910,7 +4910,7 @@ export interface operations {
                 "application/json": components["schemas"]["SpeechRequest"];
                 "multipart/form-data": {
                     options: components["schemas"]["TimelineSpeechRequest"];
-                    /** @description At most 4 MiB: visemes of Azure (JSON, or as its samples print them), speech marks of Amazon Polly, TSV, XML or JSON of Rhubarb Lip Sync, an answer of HeadTTS, lines of begin, end (s) and a phoneme in IPA between tabs, or a timeline of a speech of this server. Left out: the sound is aligned with `text`; without `text` its visemes are heard */
+                    /** @description At most 4 MiB: visemes of Azure (JSON, or as its samples print them), speech marks of Amazon Polly, TSV, XML or JSON of Rhubarb Lip Sync, an answer of HeadTTS, lines of begin, end (s) and a phoneme in IPA between tabs, or a timeline of a speech of this server. Left out: the sound is aligned with `text`; without `text` its words or visemes are heard */
                     timeline?: string;
                     /** @description The sound: WAV, PCM of 8 to 32 bits or floats, 8,000 to 48,000 samples a second, one to eight channels, at most 1,200 s; where `semblante-sound` is installed also FLAC, Ogg with Vorbis or Opus, and MP3, at most 256 MiB */
                     audio?: string;
