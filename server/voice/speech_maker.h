@@ -86,7 +86,7 @@ struct SaidRequest {
 /// A longer sound is not given to a recognizer, which needs a third of its length of processor time.
 inline constexpr double most_recognized_seconds = 60.0;
 /// Of words; a recognizer that is less sure has heard another language, or no speech.
-inline constexpr double least_confidence = 0.3;
+inline constexpr double least_confidence = 0.5;
 
 /// What another voice has said when.
 struct TimelineRequest : SaidRequest {  ///< without a text: what the timeline knows of it
