@@ -13,8 +13,8 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
+#include "core/anatomy/joined_rims.h"
 #include "core/anatomy/point_lookup.h"
-#include "core/geometry/shortest_path.h"
 #include "core/tables/openings.h"
 
 namespace semblante {
@@ -28,8 +28,6 @@ constexpr double corner_share = 0.05;
 /// A triangle belongs to a lip if the lip's points have at least this share in it, and more than those of the other
 /// lip. Near the corners the points of the corners have the largest share.
 constexpr double least_share = 0.05;
-/// A mask has skin between its lips: there the distance along the surface is at most this many times the straight one.
-constexpr double detour_of_mask = 3.0;
 constexpr int rounds = 100;
 constexpr double no_bound = std::numeric_limits<double>::infinity();
 
@@ -211,20 +209,23 @@ LipGaps fit(const std::vector<Column>& columns_of_head) {
     }
     gaps = glm::max(inverse * right, glm::dvec3(0.0));
   }
-  return {gaps[0], gaps[1], gaps[2]};
+  return {{gaps[0], gaps[1], gaps[2]}};
 }
 
-bool is_mask(const Surface& surface, const FeaturePointSet& points) {
-  const FeaturePoint& upper = *find_point(points, facing_lips[0].upper);
-  const FeaturePoint& lower = *find_point(points, facing_lips[0].lower);
-  if (!upper.vertex || !lower.vertex) return false;
-  const auto path =
-      shortest_path(surface, surface.surface_of[upper.vertex->value()], surface.surface_of[lower.vertex->value()]);
-  double length = 0.0;
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    length += glm::distance(surface.positions[path[i - 1].value()], surface.positions[path[i].value()]);
+/// One skin from lip to lip: the points come together as far as it does not fold over.
+LipGaps gaps_of_joined(const Model& model, const Rig& rig) {
+  LipGaps gaps{{}, true};
+  Heights heights{};
+  for (std::size_t i = 0; i < facing_lips.size(); ++i) {
+    const FeaturePoint& upper = *find_point(rig.points, facing_lips[i].upper);
+    const FeaturePoint& lower = *find_point(rig.points, facing_lips[i].lower);
+    gaps.closing[i] = std::max(0.0, static_cast<double>(upper.position.y) - static_cast<double>(lower.position.y));
+    heights[upper.id.value()] = -0.5 * gaps.closing[i];
+    heights[lower.id.value()] = 0.5 * gaps.closing[i];
   }
-  return length > 0.0 && length < detour_of_mask * glm::distance(upper.position, lower.position);
+  const double share = share_before_fold(model, rig, heights);
+  for (double& closing : gaps.closing) closing *= share;
+  return gaps;
 }
 
 }  // namespace
@@ -240,7 +241,8 @@ std::optional<LipGaps> measure_lip_gaps(const Model& model, const Surface& surfa
   }
   const double from = right->position.x;
   const double width = static_cast<double>(left->position.x) - from;
-  if (!(width > 0.0) || is_mask(surface, rig.points)) return std::nullopt;
+  if (!(width > 0.0)) return std::nullopt;
+  if (are_joined(surface, mpeg4::mouth, surface_points(surface, rig.points))) return gaps_of_joined(model, rig);
   const Lips lips(model, rig, from + corner_share * width, from + (1.0 - corner_share) * width);
   std::vector<Column> measured;
   for (std::size_t c = 0; c < columns; ++c) {

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
+
+#include "core/tables/openings.h"
 
 namespace semblante {
 namespace {
@@ -19,10 +22,25 @@ Displacement* find(std::vector<Displacement>& displacements, FeaturePointId id) 
   return at != displacements.end() ? &*at : nullptr;
 }
 
+/// Lips of one skin that stop are not overtaken by their outer contours, or the skin would fold there.
+void press_less(std::vector<Displacement>& displacements, float share) {
+  for (Displacement& d : displacements) {
+    const std::string name = to_string(d.point);
+    if (name.substr(0, 2) != "8.") continue;
+    const bool is_upper = std::find(mpeg4::mouth.upper_flesh.begin(), mpeg4::mouth.upper_flesh.end(), name) !=
+                          mpeg4::mouth.upper_flesh.end();
+    const bool is_lower = std::find(mpeg4::mouth.lower_flesh.begin(), mpeg4::mouth.lower_flesh.end(), name) !=
+                          mpeg4::mouth.lower_flesh.end();
+    if ((is_upper && d.value.y < 0.0F) || (is_lower && d.value.y > 0.0F)) d.value.y *= share;
+  }
+}
+
 }  // namespace
 
 void stop_at_contact(std::vector<Displacement>& displacements, const FeaturePointSet& points, double mouth_nose,
                      const std::optional<LipGaps>& gaps) {
+  const bool joined = gaps && gaps->joined;
+  double share = 1.0;
   for (std::size_t i = 0; i < facing_lips.size(); ++i) {
     const FacingLips& lips = facing_lips[i];
     const FeaturePointId upper = *parse_feature_point(lips.upper);
@@ -33,13 +51,17 @@ void stop_at_contact(std::vector<Displacement>& displacements, const FeaturePoin
     Displacement* const down = find(displacements, upper);
     Displacement* const up = find(displacements, lower);
     if (down == nullptr || up == nullptr) continue;
-    const double apart = gaps ? (*gaps)[i] : std::max(0.0, static_cast<double>(above->position.y) - below->position.y);
+    const double apart =
+        gaps ? gaps->closing[i] : std::max(0.0, static_cast<double>(above->position.y) - below->position.y);
     const double closing = static_cast<double>(up->value.y) - down->value.y;
-    const double excess = closing - (apart + lip_give * mouth_nose);
+    const double give = joined ? 0.0 : lip_give * mouth_nose;
+    const double excess = closing - (apart + give);
     if (excess <= 0.0) continue;
     down->value.y += static_cast<float>(excess / 2.0);
     up->value.y -= static_cast<float>(excess / 2.0);
+    share = std::min(share, (apart + give) / closing);
   }
+  if (joined) press_less(displacements, static_cast<float>(share));
 }
 
 void reach_upper_teeth(std::vector<Displacement>& displacements, const FeaturePointSet& points) {

@@ -14,8 +14,9 @@ namespace semblante {
 /// 2.7 and 2.9) would close more than their gap on this neutral face, both displacements are reduced equally, except
 /// for `lip_give` of `mouth_nose` (MNS0, model units), by which lips yield: speakers aim beyond the contact and press
 /// their lips flat, and Eq. 5 removes 15 % of the closing and adds 15 % of an expression's opening. `gaps`: the gaps
-/// measured on the mesh, instead of the distances between the points. The gap between the lips at rest differs between
-/// heads: the same closing makes lips pass through each other on one head and leaves them open on another.
+/// measured on the mesh, instead of the distances between the points; lips of one skin (`joined`) do not yield. The gap
+/// between the lips at rest differs between heads: the same closing makes lips pass through each other on one head and
+/// leaves them open on another.
 void stop_at_contact(std::vector<Displacement>& displacements, const FeaturePointSet& points, double mouth_nose,
                      const std::optional<LipGaps>& gaps = std::nullopt);
 inline constexpr double lip_give = 0.048;

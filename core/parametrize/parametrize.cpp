@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/anatomy/iris.h"
+#include "core/anatomy/joined_rims.h"
 #include "core/anatomy/lids.h"
 #include "core/anatomy/lip_gaps.h"
 #include "core/anatomy/neck.h"
@@ -68,8 +69,18 @@ RigidMotion rigid_motion_of(PartRole role) {
   return RigidMotion::none;
 }
 
+/// Lids of one skin close as far as it does not fold over.
+void stop_joined_lids(const Model& model, const Surface& surface, const std::vector<SurfacePoint>& points,
+                      std::size_t eye, Rig& rig) {
+  const mpeg4::Opening& opening = mpeg4::openings[1 + eye];
+  if (!rig.lids[eye] || !are_joined(surface, opening, points)) return;
+  Heights heights{};
+  heights[parse_feature_point(opening.upper.front())->value()] = -rig.lids[eye]->opening;
+  rig.lids[eye]->opening *= static_cast<float>(share_before_fold(model, rig, heights));
+}
+
 /// The vertices of lids: those that follow the points of one eye's lids. A vertex that follows both eyes is skin.
-void find_rolling_lids(const Surface& surface, const std::vector<SurfacePoint>& points, Rig& rig,
+void find_rolling_lids(const Model& model, const Surface& surface, const std::vector<SurfacePoint>& points, Rig& rig,
                        std::vector<RigidMotion>& motion) {
   static const std::array<std::array<FeaturePointId, 2>, 2> lid_points = {
       {{*parse_feature_point("3.1"), *parse_feature_point("3.3")},
@@ -78,6 +89,7 @@ void find_rolling_lids(const Surface& surface, const std::vector<SurfacePoint>& 
   for (std::size_t eye = 0; eye < 2; ++eye) {
     const std::optional<EyeEdges> edges = find_eye_edges(surface, points, eye);
     if (edges) rig.lids[eye] = find_lids(surface, *edges, rig, eye);
+    stop_joined_lids(model, surface, points, eye, rig);
     if (!rig.lids[eye]) continue;
     for (std::size_t s = 0; s < motion.size(); ++s) {
       const auto row = rig.influence.points_of(surface.file_vertex_of[s].value());
@@ -118,7 +130,7 @@ void find_moving_parts(const Model& model, const Surface& surface, const std::ve
       motion[v.value()] = left ? RigidMotion::left_iris : RigidMotion::right_iris;
     }
   }
-  if (rolls) find_rolling_lids(surface, points, rig, motion);
+  if (rolls) find_rolling_lids(model, surface, points, rig, motion);
   if (const auto tongue = find_tongue(surface, rig.parts, points, mouth)) {
     rig.tongue = tongue->shape;
     for (std::size_t s = 0; s < motion.size(); ++s) {

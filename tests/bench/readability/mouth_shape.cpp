@@ -102,7 +102,7 @@ std::optional<Mouth> Mouth::find(const PosedFace& face) {
   const Head& head = face.head();
   const auto mns = face.rig().fapu[FapuUnit::mns];
   auto opening = Opening::find(face, OpeningKind::mouth);
-  if (!opening || !mns || !face.rig().lip_gaps) return std::nullopt;
+  if (!opening || !mns || !face.rig().lip_gaps || face.rig().lip_gaps->joined) return std::nullopt;
   Mouth mouth(*std::move(opening));
   mouth.rest_ = head.model.positions;
   mouth.mouth_nose_ = 1024.0 * *mns;

@@ -75,12 +75,12 @@ Head closed(const Head& head, double share) {
   for (std::size_t i = 0; i < facing_lips.size(); ++i) {
     const double apart = find_point(head.points, facing_lips[i].upper)->position.y -
                          find_point(head.points, facing_lips[i].lower)->position.y;
-    gaps[i] = std::max({gaps[i], apart, 20.0 * mns});
+    gaps.closing[i] = std::max({gaps.closing[i], apart, 20.0 * mns});
   }
   semblante_frame frame{};
   constexpr std::array<std::array<int, 2>, 3> lips = {{{4, 5}, {8, 10}, {9, 11}}};
   for (std::size_t i = 0; i < lips.size(); ++i) {
-    for (const int fap : lips[i]) frame.fap[fap] = static_cast<float>(share * 0.5 * gaps[i] / mns);
+    for (const int fap : lips[i]) frame.fap[fap] = static_cast<float>(share * 0.5 * gaps.closing[i] / mns);
   }
   for (const int fap : {19, 20}) frame.fap[fap] = static_cast<float>(0.8 * share * 1024.0);
   for (const int fap : {21, 22}) frame.fap[fap] = static_cast<float>(0.2 * share * 1024.0);

@@ -13,7 +13,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-/// "error lips-joined 2.2 2.3", two points at most, in the order of the report.
+/// "warning lips-joined 2.2 2.3", two points at most, in the order of the report.
 std::vector<std::string> lines(const Report& report) {
   std::vector<std::string> list;
   for (const Finding& finding : report.findings) {
@@ -40,7 +40,7 @@ TEST(GoodHeads, Scan_HasWhatAScanCannotShow) {
   auto found = lines(testing::examine_with_weights(*testing::head_named("scan"), WeightMethod::smooth));
   std::erase_if(found, [](const std::string& line) { return line.find("-leak ") != std::string::npos; });
   EXPECT_THAT(found,
-              ElementsAre("error lips-joined 2.2 2.3", "error lids-joined 3.1 3.3", "error lids-joined 3.2 3.4",
+              ElementsAre("warning lips-joined 2.2 2.3", "warning lids-joined 3.1 3.3", "warning lids-joined 3.2 3.4",
                           "warning eye-not-open 3.1 3.3", "warning eye-not-open 3.2 3.4", "note eye-cannot-turn 3.5",
                           "note eye-cannot-turn 3.6", "note missing-points 6.1 6.2", "note missing-points 9.8 9.9"));
 }
@@ -81,7 +81,7 @@ TEST(GoodHeads, MediapipeMask_HasWhatItsReadmeSays) {
   if (!head) GTEST_SKIP() << "there is no folder of real heads";
   std::vector<std::string> known = {
       // "Eyes and mouth are closed by triangles."
-      "error lips-joined 2.2 2.3", "error lids-joined 3.1 3.3", "error lids-joined 3.2 3.4",
+      "warning lips-joined 2.2 2.3", "warning lids-joined 3.1 3.3", "warning lids-joined 3.2 3.4",
       // "The mouth stands 0.55 open"
       "warning mouth-open 2.2 2.3",
       // "IRISD0 from 3.1 and 3.3 is 0.67, small, since the lids are half closed."

@@ -40,9 +40,21 @@ TEST(StopAtContact, GoesByMeasuredGapsWhereTheyAreKnown) {
                                        {fp("2.3"), {0.0F, 0.1F, 0.0F}},
                                        {fp("2.7"), {0.0F, -0.3F, 0.0F}},
                                        {fp("2.9"), {0.0F, 0.3F, 0.0F}}};
-  stop_at_contact(closing, lips(0.2F), mouth_nose, LipGaps{0.1, 0.0, 0.5});
+  stop_at_contact(closing, lips(0.2F), mouth_nose, LipGaps{{0.1, 0.0, 0.5}});
   EXPECT_NEAR(y_of(closing, "2.3") - y_of(closing, "2.2"), 0.1F + give, 1e-6F);
   EXPECT_NEAR(y_of(closing, "2.9") - y_of(closing, "2.7"), 0.5F + give, 1e-6F);
+}
+
+TEST(StopAtContact, LipsOfOneSkinDoNotYield) {
+  std::vector<Displacement> closing = {{fp("2.2"), {0.0F, -0.3F, 0.0F}},
+                                       {fp("2.3"), {0.0F, 0.1F, 0.0F}},
+                                       {fp("8.1"), {0.0F, -0.2F, 0.0F}},
+                                       {fp("8.2"), {0.0F, -0.2F, 0.0F}}};
+  stop_at_contact(closing, lips(0.2F), mouth_nose, LipGaps{{0.1, 0.0, 0.0}, true});
+  EXPECT_NEAR(y_of(closing, "2.3") - y_of(closing, "2.2"), 0.1F, 1e-6F);
+  // A quarter of the closing remains, and of what the outer contours would close.
+  EXPECT_NEAR(y_of(closing, "8.1"), -0.05F, 1e-6F);
+  EXPECT_EQ(y_of(closing, "8.2"), -0.2F);
 }
 
 TEST(StopAtContact, LeavesWhatDoesNotMeetAlone) {
