@@ -7,7 +7,6 @@ import { quickSet } from '@protocol/generated/mpeg4.ts';
 import { portuguese } from '../../web/src/words/portuguese.ts';
 import { chooseFile, FingerHand, KeyboardHand, MouseHand, type Hand } from './support/hands.ts';
 import { buildDir } from './support/paths.ts';
-import { eventually } from './support/patience.ts';
 import { phone, StudioPage, type Inside, type OpenOptions } from './support/studio_page.ts';
 import { browser, server, useStudio } from './support/suite.ts';
 
@@ -49,12 +48,19 @@ interface Way {
 const ways: Way[] = [
   { name: 'ByMouse_English', options: { width: 1440, height: 900, locale: 'en-US', coarse: true }, makeHand: () => new MouseHand() },
   { name: 'ByKeyboard_English', options: { width: 1100, height: 700, locale: 'en-US', coarse: true }, makeHand: () => new KeyboardHand() },
+  { name: 'ByMouse_Portuguese', options: { width: 1024, height: 768, locale: 'pt-BR', coarse: true }, makeHand: () => new MouseHand() },
+  { name: 'ByKeyboard_Portuguese', options: { width: 1100, height: 700, locale: 'pt-BR', coarse: true }, makeHand: () => new KeyboardHand() },
+  { name: 'ByFinger_English', options: { ...phone, locale: 'en-US', coarse: true }, makeHand: () => new FingerHand() },
   { name: 'ByFinger_Portuguese', options: { ...phone, locale: 'pt-BR', coarse: true }, makeHand: () => new FingerHand() },
 ];
 
 interface Recordings {
-  recordings: { state: string; frames: number; name: string }[];
+  recordings: { state: string; model: string; sound: boolean; duration: number }[];
 }
+
+/** The positions of the face at rest. */
+const neutralOf = (studio: StudioPage): Promise<number[]> =>
+  studio.page.evaluate(() => [...(window as unknown as { semblante: { scene: { face: { mesh: { positions: Float32Array } } } } }).semblante.scene.face.mesh.positions]);
 
 describe('from a bare avatar to a talking face and a recording', () => {
   for (const { name, options, makeHand } of ways) {
@@ -111,15 +117,25 @@ describe('from a bare avatar to a talking face and a recording', () => {
       expect(video.suggestedFilename()).toBe('sample-body.webm');
       expect(statSync(await video.path()).size).toBeGreaterThan(10_000);
 
-      // 5. A recording of a stream.
-      await hand.press(page.locator('#tab-live'));
-      await hand.press(page.locator('.recordings').getByRole('button', { name: words('Record'), exact: true }));
-      const recorded = async (): Promise<Recordings['recordings']> =>
-        ((await (await fetch(`${server.url}/v1/streams/demo/recordings`)).json()) as Recordings).recordings;
-      await eventually('something is recorded', async () => (await recorded()).some(({ state, frames }) => state === 'recording' && frames > 10));
-      await hand.press(page.locator('.recordings').getByRole('button', { name: words('Stop recording {stream}').replace('{stream}', 'Demo') }));
-      await eventually('the recording is finished', async () => (await recorded()).every(({ state }) => state === 'finished'));
+      // 5. A stream says it too: it is followed at once, and a recording of it is kept.
+      await hand.press(button('Speak into a stream'));
+      await page.waitForFunction(() => (window as unknown as Inside).semblante.driver.source.value === 'stream');
+      const stream = await page.evaluate(() => (window as unknown as Inside).semblante.live.following.value!);
+      const model = await page.evaluate(() => (window as unknown as Inside).semblante.studio.selected.value!.id);
+      await page.waitForFunction((neutral) => {
+        const performer = (window as unknown as Inside).semblante.scene.performer.value!;
+        performer.kernel.deform(performer.poseNumber);
+        return performer.kernel.positions.some((value, i) => Math.abs(value - neutral[i]!) > 1e-4);
+      }, await neutralOf(studio));
+      await studio.keep(`journey-${name}-stream`);
+      await hand.press(button('Show the recording'));
       await page.locator('.recordings .recording').first().waitFor();
+      const { recordings } = (await (await fetch(`${server.url}/v1/streams/${stream}/recordings`)).json()) as Recordings;
+      expect(recordings).toHaveLength(1);
+      const [recording] = recordings;
+      expect(recording).toMatchObject({ state: 'finished', model, sound: true });
+      expect(recording!.duration).toBeGreaterThan(1000);
+      await studio.keep(`journey-${name}-recording`);
       console.info(`${name}, recorded: ${hand.acts} acts, ${hand.keys} keys, ${hand.seconds.toFixed(0)} s`);
       expect(studio.errors).toEqual([]);
       await studio.close();

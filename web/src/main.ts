@@ -33,6 +33,7 @@ import { keySheetButton } from './ui/page/key_sheet.ts';
 import { languageSelect } from './ui/page/language.ts';
 import { noFaceNotice } from './ui/animate/no_face_notice.ts';
 import { LevelsPanel } from './ui/animate/levels_panel.ts';
+import { LiveSound } from './ui/live/live_sound.ts';
 import { LiveOverlay } from './ui/live/live_overlay.ts';
 import { LiveModel } from './ui/live/live_model.ts';
 import { LivePanel } from './ui/live/live_panel.ts';
@@ -57,6 +58,10 @@ import { StagePanel } from './ui/page/stage_panel.ts';
 import { MicrophoneModel } from './ui/speak/microphone_model.ts';
 import { SpeakModel } from './ui/speak/speak_model.ts';
 import { SpeakPanel } from './ui/speak/speak_panel.ts';
+import { SpeechForm } from './ui/speak/speech_form.ts';
+import { StreamSpeechBox } from './ui/speak/stream_speech_box.ts';
+import { StreamSpeechModel } from './ui/speak/stream_speech_model.ts';
+import { StreamSpeechPanel } from './ui/speak/stream_speech_panel.ts';
 import { Studio } from './ui/shared/studio.ts';
 import { UnitsPanel } from './ui/units/units_panel.ts';
 import { themeButton } from './ui/page/theme.ts';
@@ -88,6 +93,8 @@ function main(root: HTMLElement, session: Session | null, theme: HTMLElement): v
   const live = new LiveModel(studio, frame, driver);
   const recordings = new RecordingsModel(studio, live, driver, saveFile);
   const scene = makeScene(canvas, api);
+  const liveSound = new LiveSound(live, driver, () => scene.performer.value?.player.stats ?? null);
+  scene.clock = () => liveSound.mediaTime;
 
   const sound = new Audio();
   const influence = new InfluenceModel(scene);
@@ -118,10 +125,23 @@ function main(root: HTMLElement, session: Session | null, theme: HTMLElement): v
   const clip = new ClipPanel(driver, loadLibrary, saveFile, toasts);
   const speech = new SpeakModel(api, driver, sound, loadLibrary);
   const microphone = new MicrophoneModel(frame, driver, loadLibrary, () => live.touch());
-  const speak = new SpeakPanel(speech, microphone, api);
+  const streamSpeech = new StreamSpeechModel(api, live);
+  const voices = api.voices();
+  const makeForm = (say: () => void): SpeechForm => new SpeechForm(voices, say);
+  const inStream = {
+    model: streamSpeech,
+    live,
+    showRecording: (stream: string, recording: string): void => {
+      studio.tab.set('live');
+      recordingsPanel.reveal(stream, recording);
+    },
+  };
+  const speak = new SpeakPanel(speech, microphone, api, makeForm, (make) => new StreamSpeechBox(inStream, make).element);
   // A page that the browser keeps for Back still has its speech.
   window.addEventListener('pagehide', ({ persisted }) => {
-    if (!persisted) speech.leave();
+    if (persisted) return;
+    speech.leave();
+    streamSpeech.leave();
   });
   animate.element.prepend(noFaceNotice(studio), speak.element); // what everybody wants first of a head: that it talks
   animate.element.append(clip.element, new LevelsPanel(studio, fit, scene).element);
@@ -130,7 +150,7 @@ function main(root: HTMLElement, session: Session | null, theme: HTMLElement): v
   const performance = new PerformancePanel(new PerformanceModel(studio, live), live, toasts);
   const recordingsPanel = new RecordingsPanel(recordings, live, studio);
   const overlay = new LiveOverlay(live, driver);
-  const livePanel = new LivePanel(studio, live, performance.element, recordingsPanel.element, overlay.on);
+  const livePanel = new LivePanel(studio, live, liveSound, new StreamSpeechPanel(makeForm, inStream).element, performance.element, recordingsPanel.element, overlay.on);
   const chip = makeDriverChip({ driver, live, clip: clip.shown, recordings, scene, tab: studio.tab });
   const picker = new PointPicker(scene, points, hidden);
   const stagePanel = new StagePanel(canvas, scene, studio, points, picker, [chip, compare.label], influence.on);

@@ -121,8 +121,9 @@ describe('performance model', () => {
   });
 
   test('Play_StreamOfAnotherDay_IsTakenAgainWhileItIsFree', async () => {
-    const old = { title: 'Ada, performing' };
-    const { server, model } = await setUp([stream('taken', { ...old, publishers: 1 }), stream('old', old)]);
+    const old = { title: 'Ada, performing', model: 'm' };
+    const another = stream('another', { ...old, model: 'head of the same name' });
+    const { server, model } = await setUp([another, stream('taken', { ...old, publishers: 1 }), stream('old', old)]);
     await model.play();
     expect(server.asked[0]?.stream).toBe('old');
   });

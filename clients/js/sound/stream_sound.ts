@@ -1,4 +1,4 @@
-import type { Player } from '../player.ts';
+import type { PlayoutStats } from '../player.ts';
 import type { SoundPacket, StreamClient } from '../stream_client.ts';
 import { SoundSchedule } from './schedule.ts';
 
@@ -24,7 +24,7 @@ export class StreamSound {
 
   constructor(
     private readonly client: StreamClient,
-    private readonly player: Player,
+    private readonly player: { readonly stats: Readonly<Pick<PlayoutStats, 'delay' | 'clock'>> },
   ) {
     this.stops = [
       client.on('sound', (packet) => this.decode(packet)),

@@ -25,6 +25,7 @@ import type {
   RecordingPage,
   RecordingPlay,
   Speech,
+  StreamSpeech,
   RecordingRequest,
   SpeechRequest,
   StreamInfo,
@@ -240,6 +241,11 @@ export class Api {
     return (await requestJson<FapPlaying>(url, { method: 'POST', body: file, contentType: 'text/plain' })).value;
   }
 
+  /** The face of the stream says a text from now on. */
+  async speakIntoStream(stream: string, speech: StreamSpeech): Promise<Playing> {
+    return (await requestJson<Playing>(`${this.base}/v1/streams/${segment(stream)}/speech`, { method: 'POST', json: speech })).value;
+  }
+
   /** Stops a performance, .fap file or recording; the face returns to neutral. */
   async stopPlaying(stream: string, id: string): Promise<void> {
     await requestJson(`${this.base}/v1/streams/${segment(stream)}/performances/${segment(id)}`, { method: 'DELETE' });
@@ -264,10 +270,10 @@ export class Api {
     return (await requestJson<Recording>(url, { method: 'POST', json: {} })).value;
   }
 
-  /** Resolves when the whole recording is on the server's disk. */
-  async stopRecording(id: string): Promise<Recording> {
+  /** Resolves when the whole recording is on the server's disk. `keepalive`: the page closes meanwhile. */
+  async stopRecording(id: string, keepalive = false): Promise<Recording> {
     const url = `${this.base}/v1/recordings/${segment(id)}/stop`;
-    return (await requestJson<Recording>(url, { method: 'POST', json: {} })).value;
+    return (await requestJson<Recording>(url, { method: 'POST', json: {}, keepalive })).value;
   }
 
   async deleteRecording(id: string): Promise<void> {

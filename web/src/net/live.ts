@@ -75,8 +75,14 @@ export class LiveSubscriber {
   private bytes = 0;
   private ticker: ReturnType<typeof setInterval> | null = null;
 
-  constructor(url: string, title: string, onStatus: (status: LinkStatus) => void) {
-    this.client = new StreamClient(url, { WebSocket: countingSocket((bytes) => (this.bytes += bytes)) });
+  /** `hasSound`: its sound is asked for too. */
+  constructor(
+    url: string,
+    title: string,
+    onStatus: (status: LinkStatus) => void,
+    readonly hasSound = false,
+  ) {
+    this.client = new StreamClient(url, { sound: hasSound, WebSocket: countingSocket((bytes) => (this.bytes += bytes)) });
     report(this.client, title, onStatus);
     this.client.on('frames', (batch) => {
       this.frames += batch.frames.length;

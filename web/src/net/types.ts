@@ -52,6 +52,8 @@ export type ProposalsResult = Extract<NonNullable<Job['result']>, { proposed: nu
 
 export type Speech = Schemas['Speech'];
 export type SpeechRequest = Schemas['SpeechRequest'];
+/** A text, or a stored speech, that a stream says. */
+export type StreamSpeech = Schemas['StreamSpeech'];
 export type RecordingRequest = Schemas['TimelineSpeechRequest'];
 export type Timeline = Schemas['Timeline'];
 export type Voices = Schemas['Voices'];

@@ -20,6 +20,8 @@ export class LiveModel {
   readonly sending = new Signal<string | null>(null);
   readonly sendStatus = new Signal<LinkStatus>(off);
   readonly subscriber = new Signal<LiveSubscriber | null>(null);
+  /** Whether streams are to be heard. Only a subscription made since then has sound: it takes twenty times the bytes of the face. */
+  readonly sound = new Signal(false);
   private publisher: LivePublisher | null = null;
 
   constructor(
@@ -49,10 +51,17 @@ export class LiveModel {
     this.driver.byStream();
     const subscriber = new LiveSubscriber(this.studio.api.streamUrl(id), title, (status) => {
       if (this.subscriber.value === subscriber) this.status.set(status);
-    });
+    }, this.sound.value);
     this.subscriber.set(subscriber);
     subscriber.open();
     void this.refresh();
+  }
+
+  /** Lets the followed stream be heard, or not. Call by a tap or a key: browsers let nothing be heard before. */
+  listen(on: boolean): void {
+    this.sound.set(on);
+    const { following } = this;
+    if (on && following.value !== null && !this.hasWantedSound) this.subscribe(following.value, this.titleOf(following.value));
   }
 
   /** The stream that shows what the server can do; null where it has none, or before the first response. */
@@ -75,14 +84,19 @@ export class LiveModel {
     if (id === '') {
       // A free stream of an earlier visit is reused, so that streams do not accumulate.
       const title = t('{name}, performing', { name: this.studio.selected.value?.name ?? t('Head') });
-      const free = (stream: StreamInfo): boolean => stream.publishers === 0 && !stream.playing;
+      const model = this.studio.selected.value?.id ?? null;
+      const free = (stream: StreamInfo): boolean => stream.publishers === 0 && !stream.playing && stream.model === model;
       id = this.ownStreams.find((stream) => stream.title === title && free(stream))?.id ?? (await this.create(title));
       if (id === null) return null;
     }
-    if (this.following.value === id && this.status.value.kind !== 'ended') this.driver.byStream();
+    if (this.following.value === id && this.status.value.kind !== 'ended' && this.hasWantedSound) this.driver.byStream();
     else this.subscribe(id, this.titleOf(id));
     await this.opened();
     return id;
+  }
+
+  private get hasWantedSound(): boolean {
+    return !this.sound.value || this.subscriber.value?.hasSound !== false;
   }
 
   /** Resolves when the subscription is open, or after a timeout of `patience` ms. */

@@ -5,6 +5,7 @@ import { h, replace, setText } from '../shared/dom.ts';
 import { formatBytes, formatCount } from '../shared/format.ts';
 import { icon } from '../shared/icons.ts';
 import type { LiveModel } from './live_model.ts';
+import type { LiveSound } from './live_sound.ts';
 import { progressBar } from '../shared/progress_bar.ts';
 import { rove } from '../shared/roving.ts';
 import { PhoneDialog } from './phone_dialog.ts';
@@ -56,6 +57,8 @@ export class LivePanel {
   constructor(
     private readonly studio: Studio,
     private readonly live: LiveModel,
+    sound: LiveSound,
+    speech: HTMLElement,
     performance: HTMLElement,
     recordings: HTMLElement,
     /** Whether the figures are shown over the picture. */
@@ -83,6 +86,7 @@ export class LivePanel {
           figure(t('Frame'), this.figures.frames),
         ),
         this.network,
+        this.soundSwitch(sound),
         this.overlaySwitch(overlay),
         new StreamFacts(live).element,
       ),
@@ -107,6 +111,7 @@ export class LivePanel {
         ),
         this.list,
       ),
+      speech,
       recordings,
       performance,
       h(
@@ -149,6 +154,15 @@ export class LivePanel {
     setText(this.figures.latency, delay !== null && delay < longestDelay ? t('{delay} ms', { delay: Math.max(0, delay) }) : '–');
     setText(this.figures.frames, open ? formatCount(stats.sequence) : '–');
     setText(this.network, open && delay !== null && player ? networkWords(player.stats) : '');
+  }
+
+  private soundSwitch({ fault }: LiveSound): HTMLElement {
+    const { sound } = this.live;
+    const box = h('input', { type: 'checkbox', id: 'live-sound', role: 'switch', on: { change: () => this.live.listen(box.checked) } });
+    const note = h('small', { class: 'muted', role: 'status' });
+    sound.watch((on) => (box.checked = on));
+    fault.watch((why) => setText(note, why ?? ''));
+    return h('label', { class: 'switch-row', for: 'live-sound' }, h('span', { class: 'grow' }, h('strong', {}, t('Sound')), note), box);
   }
 
   private overlaySwitch(overlay: Signal<boolean>): HTMLElement {

@@ -48,6 +48,14 @@ export class RecordingsPanel {
     for (const signal of [live.streams, model.stream, studio.selected]) signal.watch(() => this.draw());
   }
 
+  /** Shows the recordings of a stream, this one opened. */
+  reveal(stream: string, recording: string): void {
+    this.open = recording;
+    this.model.stream.set(stream);
+    this.draw();
+    this.element.scrollIntoView({ block: 'start' });
+  }
+
   private drawStreams(): void {
     const option = ({ id, title }: { id: string; title: string }): HTMLElement => h('option', { value: id }, title || id);
     replace(this.source, (this.live.streams.value ?? []).map(option), h('option', { value: '' }, t('All streams, including deleted ones')));

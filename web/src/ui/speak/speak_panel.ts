@@ -1,41 +1,20 @@
-import { expressions } from '@protocol/generated/mpeg4.ts';
 import type { Api } from '../../net/api.ts';
-import type { Speech, SpeechRequest, Timeline, VoiceName } from '../../net/types.ts';
+import type { RecordingRequest, Speech, StreamSpeech, Timeline } from '../../net/types.ts';
 import { h, redraw, replace } from '../shared/dom.ts';
 import { chooseFile } from '../shared/file_button.ts';
 import { icon } from '../shared/icons.ts';
 import { capital } from '../shared/names.ts';
-import { Slider } from '../shared/slider.ts';
-import { language, nameOf, t } from '../../words/words.ts';
+import { t } from '../../words/words.ts';
 import { soundEndings } from './sound_files.ts';
 import type { MicrophoneModel } from './microphone_model.ts';
 import type { SpeakModel } from './speak_model.ts';
+import type { SpeechForm } from './speech_form.ts';
 import { wordsOf, type Word } from './spoken_words.ts';
-import { voicesOf } from './voices_of.ts';
-
-/** Languages with mouths of their own first; that of the page is chosen. */
-const languages = [
-  { tag: 'pt-BR', example: 'Olá, mundo! :) Papai bebe mamão.' },
-  { tag: 'en', example: 'Hello, world! :) My baby bought a purple map.' },
-  { tag: 'es', example: '¡Hola, mundo! :)' },
-  { tag: 'fr', example: 'Bonjour, le monde ! :)' },
-  { tag: 'de', example: 'Hallo, Welt! :)' },
-  { tag: 'it', example: 'Ciao, mondo! :)' },
-] as const;
-
-/** A language as those who speak it write it. */
-const ownName = (tag: string): string => capital(new Intl.DisplayNames([tag], { type: 'language' }).of(tag) ?? tag);
 
 /** The panel in which a text is typed, heard and seen. */
 export class SpeakPanel {
   readonly element: HTMLElement;
-  private readonly text: HTMLTextAreaElement;
-  private readonly language: HTMLSelectElement;
-  private readonly voice = h('select', {});
-  private readonly quality = h('p', { class: 'muted small' });
-  private voices: readonly VoiceName[] = [];
-  private readonly emotion: HTMLSelectElement;
-  private readonly rate: Slider;
+  private readonly form: SpeechForm;
   private readonly said = h('div', { class: 'said', 'aria-live': 'polite' });
   private readonly recorded = h('div', { class: 'speak-recorded' });
   private readonly listening = h('div', { class: 'speak-listening', 'aria-live': 'polite' });
@@ -46,23 +25,13 @@ export class SpeakPanel {
   constructor(
     private readonly model: SpeakModel,
     private readonly microphone: MicrophoneModel,
-    private readonly api: Pick<Api, 'speechUrl' | 'voices'>,
+    private readonly api: Pick<Api, 'speechUrl' | 'createSpeechOfRecording'>,
+    /** Makes the form, which says its text by this. */
+    makeForm: (say: () => void) => SpeechForm,
+    /** Lets a stream say what this gives. */
+    intoStream: (make: () => Promise<StreamSpeech>) => HTMLElement,
   ) {
-    const own = languages.find(({ tag }) => tag === language) ?? languages[1];
-    this.text = h('textarea', { rows: 3, maxlength: 20_000, 'aria-label': t('Text to say'), placeholder: own.example });
-    this.language = h(
-      'select',
-      { on: { change: () => this.showLanguage() } },
-      ...languages.map(({ tag }) => h('option', { value: tag, selected: tag === own.tag }, ownName(tag))),
-    );
-    this.emotion = h(
-      'select',
-      {},
-      ...expressions.map(({ name }, number) =>
-        h('option', { value: number === 0 ? 'neutral' : name }, number === 0 ? t('As the text says') : nameOf(capital(name))),
-      ),
-    );
-    this.rate = new Slider({ label: t('Speed'), note: '%', min: 50, max: 200, value: 100, onInput: () => undefined });
+    this.form = makeForm(() => void this.say());
     this.element = h(
       'section',
       { class: 'speak' },
@@ -78,32 +47,16 @@ export class SpeakPanel {
             },
           },
         },
-        this.text,
+        this.form.text,
         h('button', { type: 'submit', class: 'primary' }, icon('play', 15), t('Speak')),
         this.recorded,
-        h('div', { class: 'speak-choices' }, field(t('Language'), this.language), field(t('Emotion'), this.emotion), field(t('Voice'), this.voice)),
-        this.quality,
-        this.rate.element,
+        this.form.choices,
       ),
       this.said,
+      intoStream(() => this.forStream()),
       this.listening,
     );
-    this.text.addEventListener('keydown', (event) => {
-      if (event.key === 'Enter' && !event.shiftKey && !event.isComposing) {
-        event.preventDefault();
-        void this.say();
-      }
-    });
     this.showRecording();
-    this.showLanguage();
-    // Without the list there is the voice program's own choice.
-    api.voices().then(
-      (voices) => {
-        this.voices = voices;
-        this.showLanguage();
-      },
-      () => undefined,
-    );
     microphone.state.watch(() => redraw(this.listening, () => this.drawListening()));
     model.state.watch(() => this.draw());
     model.playing.watch((playing) => {
@@ -116,13 +69,12 @@ export class SpeakPanel {
   takeRecording(file: File): void {
     this.recording = file;
     this.showRecording();
-    this.text.focus();
+    this.form.text.focus();
   }
 
   private showRecording(): void {
     const { recording } = this;
-    const speed = this.rate.element;
-    speed.hidden = this.voice.disabled = recording !== null;
+    this.form.setVoiced(recording === null);
     replace(
       this.recorded,
       recording
@@ -151,33 +103,21 @@ export class SpeakPanel {
     this.recorded.querySelector('button')?.focus();
   }
 
-  private say(): Promise<void> {
-    const emotion = this.emotion.value as NonNullable<SpeechRequest['emotion']>;
-    if (this.recording) {
-      const text = this.text.value.trim();
-      return this.model.sayRecording({ ...(text && { text }), language: this.language.value, emotion }, this.recording);
-    }
-    return this.model.say({
-      text: this.text.value.trim() || this.text.placeholder,
-      language: this.language.value,
-      voice: this.voice.value,
-      emotion,
-      rate: this.rate.value / 100,
-    });
+  /** For a stream: the text, or the recording made into a speech of the server. */
+  private async forStream(): Promise<StreamSpeech> {
+    const { form, recording } = this;
+    if (!recording) return form.request;
+    return { speech: (await this.api.createSpeechOfRecording(this.recordingOptions, recording)).id };
   }
 
-  /** The example, the voices and the quality of the language that is chosen. */
-  private showLanguage(): void {
-    const tag = this.language.value;
-    this.text.placeholder = languages.find((one) => one.tag === tag)?.example ?? '';
-    const fitting = voicesOf(this.voices, tag);
-    replace(
-      this.voice,
-      h('option', { value: '' }, t('Default')),
-      ...fitting.map(({ voice, label }) => h('option', { value: voice }, label || voice)),
-    );
-    this.quality.hidden = fitting[0]?.quality !== 'english';
-    this.quality.textContent = t('Mouths are those of English: this language has no table of its own.');
+  private get recordingOptions(): RecordingRequest {
+    const text = this.form.text.value.trim();
+    return { ...(text && { text }), language: this.form.languageTag, emotion: this.form.emotionName };
+  }
+
+  private say(): Promise<void> {
+    const { form, recording } = this;
+    return recording ? this.model.sayRecording(this.recordingOptions, recording) : this.model.say(form.request);
   }
 
   /** Lights up the word that is heard, until the sound stops. */
@@ -283,5 +223,3 @@ export class SpeakPanel {
     );
   }
 }
-
-const field = (label: string, control: HTMLElement): HTMLElement => h('label', { class: 'field' }, h('span', {}, label), control);
