@@ -105,6 +105,7 @@ function main(root: HTMLElement, session: Session | null, theme: HTMLElement): v
   });
   const animate = new AnimatePanel({
     frame,
+    toasts,
     exports: [codeButton(studio, live, driver), ...exportButtons({ studio, scene, driver, sound, load: loadLibrary, save: saveFile })],
     views: [
       new InfluencePanel(influence, scene).element,
@@ -164,10 +165,11 @@ function main(root: HTMLElement, session: Session | null, theme: HTMLElement): v
       stagePanel.element.append(new PointDrag(canvas, scene, studio, points, picker).element);
     });
   });
+  const pointsPanel = new PointsPanel(studio, points, parametrizer, hidden);
   const panels = {
     heads: shelf.element,
     fit: fitPanel.element,
-    points: new PointsPanel(studio, points, parametrizer, hidden).element,
+    points: pointsPanel.element,
     animate: animate.element,
     live: livePanel.element,
   };
@@ -200,7 +202,7 @@ function main(root: HTMLElement, session: Session | null, theme: HTMLElement): v
     keepOffline();
     queueMicrotask(() => kept());
   });
-  routeDrops(layout, studio, performance, clip, speak);
+  routeDrops(layout, { studio, points: pointsPanel, performance, clip, speak });
   startPolling({ studio, scene, live, livePanel, overlay, recordings, performance, clip });
 
   const address = new Address(studio, points, live);

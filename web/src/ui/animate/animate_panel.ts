@@ -14,10 +14,12 @@ import { h, setText } from '../shared/dom.ts';
 import { expressionFace } from './expression_face.ts';
 import { FapSliders, fapsWithoutEffect } from './fap_sliders.ts';
 import { icon } from '../shared/icons.ts';
+import { canIdle, setIdle } from '../shared/idle.ts';
 import { messageOf } from '../shared/message_of.ts';
 import { capital } from '../shared/names.ts';
 import { rove } from '../shared/roving.ts';
 import { Slider } from '../shared/slider.ts';
+import type { Toasts } from '../shared/toast.ts';
 import { VisemeGrid } from './viseme_grid.ts';
 import { nameOf, t } from '../../words/words.ts';
 
@@ -25,6 +27,7 @@ const idleNote = t('Blinks and glances under what you set, on this page.');
 
 export interface AnimatePanelOptions {
   frame: FaceFrame;
+  toasts: Pick<Toasts, 'say'>;
   /** Called after a slider or button changed the frame. */
   onChange: () => void;
   /** Called when a slider of a FAP is used, with the mirror FAP that moves with it, or 0. */
@@ -87,6 +90,7 @@ export class AnimatePanel {
       icon('reset', 16),
       t('Neutral face'),
     );
+    canIdle(this.resetAll, options.toasts);
     const act = (title: string, name: 'blink' | 'mirror', hint: string, action: () => void): HTMLElement =>
       h('button', { type: 'button', class: 'quiet', title: hint, on: { click: action } }, icon(name, 16), title);
     const take = h('div', { class: 'row wrap quick-acts', role: 'toolbar', 'aria-label': t('Take this face along') }, ...options.exports);
@@ -151,7 +155,7 @@ export class AnimatePanel {
       feeling.button.setAttribute('aria-pressed', String(intensity > 0));
     }
     this.faps.refresh();
-    this.resetAll.disabled = isNeutral(frame);
+    setIdle(this.resetAll, t('Neutral face'), isNeutral(frame) ? { why: t('All sliders are at neutral.'), help: { label: t('Show a smile'), act: () => this.smile() } } : null);
   }
 
   reset(): void {
@@ -195,6 +199,11 @@ export class AnimatePanel {
       open();
       this.changed();
     }, blinkTime);
+  }
+
+  private smile(): void {
+    setExpression(this.options.frame, 1, maxBlend);
+    this.changed();
   }
 
   private mirror(): void {

@@ -113,7 +113,7 @@ export class FapSliders {
     for (const [group, count] of this.counts) {
       const moved = faps.filter((fap) => fap.group === group && this.options.frame.levels[fap.number] !== 0).length;
       setText(count, moved === 0 ? '' : t('{moved} moved', { moved }));
-      this.resets.get(group)!.disabled = moved === 0;
+      this.resets.get(group)!.hidden = moved === 0;
     }
   }
 

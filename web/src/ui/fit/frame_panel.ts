@@ -1,6 +1,7 @@
 import type { Direction, FrameWish, LengthUnit, Model, ModelFrame } from '../../net/types.ts';
 import { h, replace } from '../shared/dom.ts';
 import { icon } from '../shared/icons.ts';
+import { canIdle, setIdle } from '../shared/idle.ts';
 import type { Studio } from '../shared/studio.ts';
 import { language, t } from '../../words/words.ts';
 
@@ -57,6 +58,7 @@ export class FramePanel {
       event.preventDefault();
       void this.send(this.wish());
     });
+    canIdle(this.apply, studio.toasts);
     form.addEventListener('change', () => this.check());
     this.element = h(
       'section',
@@ -142,7 +144,17 @@ export class FramePanel {
     const axis = this.up.select.value.slice(1);
     const clash = this.front.select.value.endsWith(axis);
     for (const option of this.front.select.options) option.disabled = option.value.endsWith(axis);
-    this.apply.disabled = busy || clash || Object.keys(this.wish()).length === 0;
+    const nothing = Object.keys(this.wish()).length === 0;
+    this.apply.disabled = busy;
+    setIdle(
+      this.apply,
+      t('Use this unit and these axes'),
+      clash
+        ? { why: t('The top of the head and the front of the face need different axes.'), help: { label: t('Choose another front'), act: () => this.front.select.focus() } }
+        : nothing
+          ? { why: t('Nothing is changed yet.'), help: { label: t('Change the unit'), act: () => this.unit.select.focus() } }
+          : null,
+    );
     this.guess.disabled = busy;
     for (const { select } of [this.unit, this.up, this.front]) select.disabled = busy;
   }

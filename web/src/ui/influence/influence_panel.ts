@@ -7,6 +7,8 @@ import type { SceneView } from '../stage/scene.ts';
 import { faps } from '@protocol/generated/mpeg4.ts';
 import { swatch } from './swatch.ts';
 import { pointName, type InfluenceMode, type InfluenceModel } from './influence_model.ts';
+import { capital } from '../shared/names.ts';
+import { clickWord } from '../shared/click_word.ts';
 import { t } from '../../words/words.ts';
 
 const modes: { mode: InfluenceMode; title: string; words: string }[] = [
@@ -36,7 +38,7 @@ export class InfluencePanel {
       if (this.select.value !== '') model.choose(this.select.value, true);
     });
     this.chooser = h('div', { class: 'influence-chooser' }, this.chips, this.select);
-    const help = t('Point at the skin, or press and hold, to read its weights. Click a dot to choose it, with Shift to add it.');
+    const help = t('Point at the skin, or press and hold, to read its weights. {click} a dot to choose it, with Shift to add it.', { click: capital(clickWord()) });
     this.body.append(
       h(
         'div',

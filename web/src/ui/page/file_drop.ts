@@ -2,16 +2,31 @@ import type { PathFile } from '../../net/head_files.ts';
 import type { ClipPanel } from '../animate/clip_panel.ts';
 import { dropPlace, type DropPlace } from './drop_place.ts';
 import { droppedFiles } from './dropped_files.ts';
+import type { PointsPanel } from '../points/points_panel.ts';
 import type { PerformancePanel } from '../live/performance_panel.ts';
 import type { Studio } from '../shared/studio.ts';
 import type { SpeakPanel } from '../speak/speak_panel.ts';
 
+export interface DropReceivers {
+  studio: Studio;
+  points: PointsPanel;
+  performance: PerformancePanel;
+  clip: ClipPanel;
+  speak: SpeakPanel;
+}
+
 /** Routes files and folders dropped anywhere on the page to the panels that read them. */
-export function routeDrops(page: HTMLElement, studio: Studio, performance: PerformancePanel, clip: ClipPanel, speak: SpeakPanel): void {
-  acceptDrops(page, (files) => {
-    const going = (place: DropPlace): PathFile[] => files.filter(({ file }) => dropPlace(file.name, studio.tab.value) === place);
-    const [script, file, sound, heads] = [going('stream').at(-1), going('page').at(-1), going('speech').at(-1), going('heads')];
-    if (script) {
+export function routeDrops(page: HTMLElement, { studio, points, performance, clip, speak }: DropReceivers): void {
+  acceptDrops(page, async (files) => {
+    const { value: tab } = studio.tab;
+    const places = await Promise.all(files.map(({ file }) => dropPlace(file, tab)));
+    const going = (place: DropPlace): PathFile[] => files.filter((_, i) => places[i] === place);
+    const [set, script, file, sound] = (['points', 'stream', 'page', 'speech'] as const).map((place) => going(place).at(-1));
+    const heads = going('heads');
+    if (set) {
+      studio.tab.set('points');
+      void points.importFile(set.file);
+    } else if (script) {
       studio.tab.set('live');
       void performance.takeFile(script.file);
     } else if (file) {
@@ -25,7 +40,7 @@ export function routeDrops(page: HTMLElement, studio: Studio, performance: Perfo
   });
 }
 
-function acceptDrops(page: HTMLElement, take: (files: PathFile[]) => void): void {
+function acceptDrops(page: HTMLElement, take: (files: PathFile[]) => Promise<void>): void {
   let depth = 0;
   const carriesFiles = (event: DragEvent): boolean => event.dataTransfer?.types.includes('Files') ?? false;
   const set = (value: number): void => {

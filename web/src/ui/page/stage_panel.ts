@@ -10,6 +10,8 @@ import type { SceneView } from '../stage/scene.ts';
 import { overlayCard } from './stage_overlay.ts';
 import type { Signal } from '../shared/signal.ts';
 import type { Studio } from '../shared/studio.ts';
+import { capital } from '../shared/names.ts';
+import { clickWord } from '../shared/click_word.ts';
 import { t } from '../../words/words.ts';
 
 const views: { name: ViewName; label: string; key: string }[] = [
@@ -240,10 +242,10 @@ export class StagePanel {
     const name = id === null ? '' : (pointById(id)?.name ?? '');
     const words =
       id === null
-        ? t('Choose a point, then click on the head.')
+        ? t('Choose a point, then {click} on the head.', { click: clickWord() })
         : this.points.draft.points.has(id)
-          ? t('Drag {id}, or click where it lies: {name}', { id, name })
-          : t('Click where {id} lies: {name}', { id, name });
+          ? t('Drag {id}, or {click} where it lies: {name}', { click: clickWord(), id, name })
+          : t('{click} where {id} lies: {name}', { click: capital(clickWord()), id, name });
     replace(this.hint, icon('point', 16), h('span', {}, words));
   }
 

@@ -47,7 +47,7 @@ export class PartsBox {
           {},
           h(
             'button',
-            { type: 'button', class: 'quiet small', 'data-focus': 'all', disabled: count === 0, on: { click: () => this.hidden.showAll() } },
+            { type: 'button', class: 'quiet small', 'data-focus': 'all', hidden: count === 0, on: { click: () => this.hidden.showAll() } },
             t('Show all'),
           ),
         ),

@@ -7,6 +7,7 @@ import { icon } from '../shared/icons.ts';
 import { capital } from '../shared/names.ts';
 import type { PointsModel } from './points_model.ts';
 import { proposalWords } from './proposal_words.ts';
+import { clickWord } from '../shared/click_word.ts';
 import { t } from '../../words/words.ts';
 
 /** The selected point: name, place and actions. In guided mode it leads through the quick set. */
@@ -76,9 +77,9 @@ export class PointCard {
 
   private where(id: string): string {
     const place = this.points.draft.points.get(id);
-    if (!place) return t('Click on the head to place it.');
-    if (place.vertex === null) return t('At {list}. Drag it, or click elsewhere.', { list: place.position.map((value) => formatNumber(value, 4)).join(' · ') });
-    return t('On vertex {vertex}. Drag it, or click elsewhere.', { vertex: place.vertex });
+    if (!place) return t('{click} on the head to place it.', { click: capital(clickWord()) });
+    if (place.vertex === null) return t('At {list}. Drag it, or {click} elsewhere.', { click: clickWord(), list: place.position.map((value) => formatNumber(value, 4)).join(' · ') });
+    return t('On vertex {vertex}. Drag it, or {click} elsewhere.', { click: clickWord(), vertex: place.vertex });
   }
 
   /** Takes this pair apart, or links it again, while left and right points move together. */
@@ -136,7 +137,7 @@ export class PointCard {
     return h(
       'p',
       { class: 'muted' },
-      t('Choose a point in the drawing or the list, then click its place on the head.'),
+      t('Choose a point in the drawing or the list, then {click} its place on the head.', { click: clickWord() }),
     );
   }
 
@@ -148,7 +149,7 @@ export class PointCard {
       h(
         'p',
         {},
-        t('{count} points are enough for a talking face. For each one, read its place and click there. ', { count: quickSet.length }),
+        t('{count} points are enough for a talking face. For each one, read its place and {click} there. ', { click: clickWord(), count: quickSet.length }),
         t('From {leastKnownPoints} placed points on, the others can be proposed.', { leastKnownPoints }),
       ),
       h(

@@ -182,7 +182,8 @@ export class PointsPanel {
     );
   }
 
-  private async importFile(file: File): Promise<void> {
+  /** Takes the points of a file for this head, after a question if it has some. */
+  async importFile(file: File): Promise<void> {
     if (this.points.draft.points.size > 0) {
       const yes = await ask({
         title: t('Replace the feature points?'),

@@ -18,6 +18,7 @@ export function canIdle(button: HTMLButtonElement, toasts: Pick<Toasts, 'say'>):
     (event) => {
       const idle = reasons.get(button);
       if (!idle) return;
+      event.preventDefault(); // it may submit a form
       event.stopImmediatePropagation();
       toasts.say(idle.why, idle.help, event.detail === 0);
     },
