@@ -1,6 +1,6 @@
 import { CapsuleGeometry, BoxGeometry, CylinderGeometry, PlaneGeometry, SphereGeometry, type BufferGeometry } from 'three';
 import { expect, test } from 'vitest';
-import { findHead, type Piece } from '../src/view/head_box.ts';
+import { findHead, headOfPoints, type Piece } from '../src/view/head_box.ts';
 
 /** In metres, like a person: the head is 0.16 wide and reaches from 1.52 to 1.75. */
 function piece(geometry: BufferGeometry, y: number, x = 0): Piece {
@@ -46,4 +46,30 @@ test('findHead_OfWhatDoesNotStand_FindsNone', () => {
   expect(findHead(lying)).toBeNull();
   expect(findHead([piece(new PlaneGeometry(1, 1).rotateX(Math.PI / 2), 0)])).toBeNull();
   expect(findHead([])).toBeNull();
+});
+
+/** `count` points between a chin at 1.54 and `top`, 0.12 apart from left to right. */
+const pointsUpTo = (top: number, count: number): [number, number, number][] =>
+  Array.from({ length: count }, (_, i) => [i % 2 === 0 ? -0.06 : 0.06, 1.54 + ((top - 1.54) * i) / (count - 1), 0.1]);
+
+test('headOfPoints_FigureWhoseOutlineShowsNoHead_IsAroundThePoints', () => {
+  const body = 0.88; // half of 1.76
+  const head = headOfPoints(pointsUpTo(1.75, 60), body)!;
+  expect(head.min[1]).toBeCloseTo(1.54 - 0.15 * 0.21);
+  expect(head.max[1]).toBeCloseTo(1.75 + 0.15 * 0.21);
+  const face = headOfPoints(pointsUpTo(1.66, 10), body)!;
+  expect(face.min[1]).toBeLessThan(1.48);
+  expect(face.max[1]).toBeGreaterThan(1.72);
+});
+
+test('headOfPoints_FramedHead_StaysAsItIs', () => {
+  expect(headOfPoints(pointsUpTo(1.75, 60), 0.12)).toBeNull();
+  expect(headOfPoints(pointsUpTo(1.66, 10), 0.12)).toBeNull();
+  // A hat or long hair is a part of the picture.
+  expect(headOfPoints(pointsUpTo(1.75, 60), 0.17)).toBeNull();
+});
+
+test('headOfPoints_FewPointsOrAllInOnePlace_SayNothing', () => {
+  expect(headOfPoints(pointsUpTo(1.75, 7), 10)).toBeNull();
+  expect(headOfPoints(new Array<[number, number, number]>(60).fill([0, 1, 0]), 10)).toBeNull();
 });

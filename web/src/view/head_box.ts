@@ -78,6 +78,30 @@ export function framedHead(pieces: readonly Piece[]): Box | null {
   return found;
 }
 
+/** Feature points from which on they reach from the chin to the top of the skull; fewer lie between brows and chin. */
+const pointsOfSkull = 40;
+/** Fewer points than these say nothing about the size of the head. */
+const fewestPoints = 8;
+/** What is framed may be so many times as large as the feature points: more is a body whose head the outline did not show. */
+const roomAround = { skull: 1.8, face: 3 };
+/** Room around the feature points, as a share of their height. */
+const aroundPoints = { skull: 0.15, face: 0.6 };
+
+/** The head by its feature points, where what is framed (half its size: `radius`) is much larger than a head around them; else null. */
+export function headOfPoints(points: readonly (readonly [number, number, number])[], radius: number): Box | null {
+  if (points.length < fewestPoints) return null;
+  const box = boxOf([{ positions: points.flat(), triangles: [] }], -Infinity);
+  const kind = points.length >= pointsOfSkull ? 'skull' : 'face';
+  const height = box.max[1] - box.min[1];
+  const half = Math.max(height, box.max[0] - box.min[0]) / 2;
+  if (!(half > 0) || radius <= half * roomAround[kind]) return null;
+  for (let axis = 0; axis < 2; axis += 1) {
+    box.min[axis] = box.min[axis]! - height * aroundPoints[kind];
+    box.max[axis] = box.max[axis]! + height * aroundPoints[kind];
+  }
+  return box;
+}
+
 /** The width from in front in every slice, from the top down; 0 where there is nothing. */
 function outline(pieces: readonly Piece[], top: number, height: number): Float64Array {
   const left = new Float64Array(slices).fill(Infinity);

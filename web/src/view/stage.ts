@@ -183,6 +183,17 @@ export class Stage {
     this.look('front', true);
   }
 
+  /** From now on shows this part of the framed object as the head. */
+  frameHead({ min, max }: Box): void {
+    const box = new Box3(new Vector3(...min), new Vector3(...max));
+    box.getCenter(this.center);
+    this.radius = radiusOf(box);
+    this.camera.near = this.radius / 50;
+    this.controls.minDistance = this.radius * 0.3;
+    this.placeLights();
+    this.look('front');
+  }
+
   /** Shows the whole face again, from where the camera is. */
   frameFace(): void {
     this.before = null;

@@ -24,6 +24,13 @@ export function flyToPoints(studio: Studio, points: PointsModel, scene: SceneVie
     asked = points.pickedOnHead ? null : id;
     fly();
   });
+  // More than one at once are of a file or proposals: whoever places them one by one has the camera in front of each.
+  let before = 0;
+  points.changed.watch(() => {
+    const { points: placed } = points.draft;
+    if (placed.size > before + 1 && scene.state.value.kind === 'ready') scene.frameByPoints([...placed.values()].map(({ position }) => position));
+    before = placed.size;
+  });
   // A link names a point before the head and its points are there.
   scene.state.watch(fly);
   points.changed.watch(fly);

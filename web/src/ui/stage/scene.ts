@@ -9,7 +9,7 @@ import { FaceView, type DeformPath } from '@client/three/face_view.ts';
 import { ballAround, Highlight, type HighlightTarget } from '../../view/highlight.ts';
 import type { UnitLines } from '../../view/unit_lines.ts';
 import type { InfluenceView } from '../../view/influence_view.ts';
-import { framedHead } from '../../view/head_box.ts';
+import { framedHead, headOfPoints } from '../../view/head_box.ts';
 import { Markers, type Marker } from '../../view/markers.ts';
 import { PreviewView } from '../../view/preview_view.ts';
 import { chooseQuality, type Quality } from '../../view/quality.ts';
@@ -328,7 +328,14 @@ export class SceneView {
       this.stage.frameObject(face.view.object, framedHead([{ positions, triangles: indices }]));
     }
     this.framed = key;
+    if (this.rig) this.frameByPoints(this.rig.feature_points.map(({ position }) => position));
     this.show(this.wanted);
+  }
+
+  /** Goes to the head that the feature points tell, where the outline of the figure did not tell it. */
+  frameByPoints(positions: readonly (readonly [number, number, number])[]): void {
+    const head = headOfPoints(positions, this.stage.headRadius);
+    if (head) this.stage.frameHead(head);
   }
 
   /** Whether FAP 3 alone takes the lower lip along, on this face and those to come. */
