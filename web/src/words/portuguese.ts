@@ -534,7 +534,7 @@ export const portuguese = {
   guessed: 'estimado',
   rest: 'pausa',
   'No face parameter matches.': 'Nenhum parâmetro corresponde.',
-  'Search: jaw, left, 31…': 'Buscar: mandíbula, esquerda, 31…',
+  'Search: jaw, 31…': 'Buscar: mandíbula, 31…',
   'Search face parameters': 'Buscar parâmetros do rosto',
   'The head, when it has the focus': 'A cabeça, quando tem o foco',
   'Turn the head': 'Girar a cabeça',

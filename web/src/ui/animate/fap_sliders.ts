@@ -59,7 +59,7 @@ export class FapSliders {
   constructor(private readonly options: FapSlidersOptions) {
     const search = h('input', {
       type: 'search',
-      placeholder: t('Search: jaw, left, 31…'),
+      placeholder: t('Search: jaw, 31…'),
       'aria-label': t('Search face parameters'),
       on: { input: () => this.search(search.value) },
     });

@@ -17,7 +17,7 @@ export class PointList {
   readonly element = h('div', { class: 'point-groups' });
   private readonly words = h('input', {
     type: 'search',
-    placeholder: t('Search: 2.1, chin, left…'),
+    placeholder: t('Search: 2.1, chin…'),
     'aria-label': t('Search feature points'),
     on: { input: () => this.draw() },
   });

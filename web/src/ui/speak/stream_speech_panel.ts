@@ -1,4 +1,5 @@
 import { h } from '../shared/dom.ts';
+import { icon } from '../shared/icons.ts';
 import type { SpeechForm } from './speech_form.ts';
 import { StreamSpeechBox, type StreamSpeechParts } from './stream_speech_box.ts';
 import { t } from '../../words/words.ts';
@@ -14,7 +15,7 @@ export class StreamSpeechPanel {
       'section',
       { class: 'speak' },
       h('header', { class: 'section-head' }, h('h2', {}, t('Speak'))),
-      h('div', { class: 'speak-form' }, form.text, h('details', {}, h('summary', {}, t('Language, emotion, voice, speed')), form.choices)),
+      h('div', { class: 'speak-form' }, form.text, h('details', { class: 'reasons' }, h('summary', { class: 'small' }, icon('chevron', 14), t('Language, emotion, voice, speed')), form.choices)),
       box.element,
     );
   }
