@@ -112,6 +112,7 @@ bool Player::advance(double now, double elapsed) {
 }
 
 bool Player::move_to(double media_time) {
+  last_advance_ = unknown_time;  // the time until the next advance() has been played already
   if (held_.empty()) return false;
   playout_.move_to(media_time);
   select();

@@ -29,6 +29,13 @@ void Playout::clear() {
   seconds_.clear();
 }
 
+PlayoutStats Playout::stats() const {
+  PlayoutStats stats = stats_;
+  stats.delay = delay_;
+  stats.wanted_delay = wanted_delay_;
+  return stats;
+}
+
 double Playout::rest() const {
   return std::max(least_rest, 2.5 * (frame_interval_ > 0 ? frame_interval_ : measured_interval_));
 }
@@ -89,12 +96,15 @@ double Playout::arrived(double first, double before_last, double last, double no
   newest_ = last;
   before_newest_ = before_last < last ? before_last : before;
   measure_jitter(clock - last);
+  const double since = std::isnan(arrived_at_) ? 0 : now - arrived_at_;
+  arrived_at_ = now;
   if (std::isnan(before)) {
     before_newest_ = before_last;
     delay_ = wanted_delay_ = first_delay();
     playhead_ = std::min(clock - delay_, last);
     return first;
   }
+  if (is_moved_) move_delay(std::max(0.0, since));
   const bool rested = first - before > rest();
   measure_interval(first - before);
   const double wanted = clock - delay_;
@@ -123,7 +133,14 @@ double Playout::arrived(double first, double before_last, double last, double no
   return before;
 }
 
+double Playout::move_delay(double elapsed) {
+  const double step = std::clamp(wanted_delay_ - delay_, -delay_rate * elapsed, delay_rate * elapsed);
+  delay_ += step;
+  return step;
+}
+
 void Playout::advance(double now, double elapsed) {
+  is_moved_ = false;
   if (std::isnan(playhead_)) {
     return;
   }
@@ -132,8 +149,7 @@ void Playout::advance(double now, double elapsed) {
     return;  // that of a stream followed since, which has sent nothing yet
   }
   elapsed = std::max(0.0, elapsed);
-  const double step = std::clamp(wanted_delay_ - delay_, -delay_rate * elapsed, delay_rate * elapsed);  // of the delay
-  delay_ += step;
+  const double step = move_delay(elapsed);
   const double wanted = *clock - delay_;
   const double error = wanted - (playhead_ + elapsed - step);
   double next = playhead_;
@@ -148,8 +164,6 @@ void Playout::advance(double now, double elapsed) {
     ++stats_.snaps;
   }
   playhead_ = next;
-  stats_.delay = delay_;
-  stats_.wanted_delay = wanted_delay_;
   stats_.error = playhead_ - wanted;
 }
 
@@ -157,6 +171,7 @@ void Playout::move_to(double media_time) {
   if (std::isnan(newest_)) {
     return;
   }
+  is_moved_ = true;
   const double back = playhead_ - media_time;
   if (!(back > 0 && back <= snap_threshold)) {
     playhead_ = std::min(media_time, newest_);

@@ -72,7 +72,7 @@ class Playout {
   /// Advances by a display frame that is shown `elapsed` after the one before.
   void advance(double now, double elapsed);
   /// Moves to this time, limited by the received frames: for an external clock, such as that of sound. Backwards only
-  /// beyond the snap threshold.
+  /// beyond the snap threshold. The delay, by which that clock may begin anew, then moves as frames arrive.
   void move_to(double media_time);
   /// Drops the frames; keeps the clock.
   void clear();
@@ -81,7 +81,7 @@ class Playout {
   [[nodiscard]] double playhead() const { return playhead_; }
   [[nodiscard]] double newest() const { return newest_; }
   [[nodiscard]] double delay() const { return delay_; }
-  [[nodiscard]] PlayoutStats stats() const { return stats_; }
+  [[nodiscard]] PlayoutStats stats() const;
 
  private:
   struct Second {
@@ -91,6 +91,8 @@ class Playout {
   [[nodiscard]] double first_delay() const;
   [[nodiscard]] double rest() const;
   void count_lateness(double lateness, double now);
+  /// Moves the delay towards its target. Returns by how much.
+  double move_delay(double elapsed);
   void measure_jitter(double transit);
   void measure_interval(double gap);
 
@@ -107,8 +109,10 @@ class Playout {
   double transit_ = std::numeric_limits<double>::quiet_NaN();
   double delay_ = std::numeric_limits<double>::quiet_NaN();
   double wanted_delay_ = std::numeric_limits<double>::quiet_NaN();
+  bool is_moved_ = false;  ///< an external clock moves the playhead
+  double arrived_at_ = std::numeric_limits<double>::quiet_NaN();
   Ring<Second, 64> seconds_;
-  PlayoutStats stats_;
+  PlayoutStats stats_;  ///< without the delays
 };
 
 }  // namespace semblante::runtime

@@ -90,6 +90,34 @@ TEST(Player, BetweenTwoFrames_ShowsTheShareOfBoth) {
   EXPECT_EQ(semblante_player_time(player.get()), 200) << "no farther than the frames";
 }
 
+TEST(Player, AfterAnExternalClock_GoesOnWhereItWas) {
+  const OwnedPlayer player = make_player(2000);
+  std::vector<semblante_timed_frame> frames;
+  for (int i = 0; i < 100; ++i) frames.push_back(jaw_at(40.0 * i, 0));
+  ASSERT_EQ(semblante_player_push(player.get(), frames.data(), 100, 3960), SEMBLANTE_OK);
+  double now = 3960;
+  EXPECT_EQ(semblante_player_advance(player.get(), now, 16), 1U);
+  for (; now < 4960; now += 16) semblante_player_move_to(player.get(), now - 2000);
+  semblante_player_advance(player.get(), now, 16);
+  EXPECT_NEAR(semblante_player_time(player.get()), now - 2000, 1) << "not by the time that was played already";
+}
+
+TEST(Player, DelayAdapts_AlsoWhileAnExternalClockMovesIt) {
+  const OwnedPlayer player = make_player(0);
+  for (int i = 0; i < 1000; ++i) {
+    const double time = 40.0 * i;
+    const semblante_timed_frame frame = jaw_at(time, 0);
+    const double late = i < 100 ? 10 : i % 2 == 0 ? 300 : 280;
+    ASSERT_EQ(semblante_player_push(player.get(), &frame, 1, time + late), SEMBLANTE_OK);
+    semblante_player_move_to(player.get(), time - 700);  // a sound that is late itself
+  }
+  semblante_player_statistics stats{};
+  stats.size = sizeof(stats);
+  ASSERT_EQ(semblante_player_stats(player.get(), &stats), SEMBLANTE_OK);
+  EXPECT_GT(stats.wanted_delay, 300);
+  EXPECT_NEAR(stats.delay, stats.wanted_delay, 1) << "where the sound begins after its next pause";
+}
+
 TEST(Player, OneForSeveralHeads_AndOneHeadAfterAnother) {
   const SmallPackage small;
   const OwnedPlayer player = make_player(100);
