@@ -14,7 +14,7 @@ const mostWaiting = 24;
  *     button.onclick = () => sound.start();  // browsers ask for a tap
  */
 export class StreamSound {
-  private readonly schedule = new SoundSchedule();
+  private schedule = new SoundSchedule();
   private context: AudioContext | null = null;
   private decoder: AudioDecoder | null = null;
   /** What is played and is to be played. */
@@ -46,13 +46,17 @@ export class StreamSound {
 
   /** The media time that is heard now, for the option `clock` of the player; NaN while nothing is heard. */
   get mediaTime(): number {
-    return this.context && this.isOn ? this.schedule.heardAt(this.outputTime(this.context)) : NaN;
+    const { context } = this;
+    return context && this.isOn ? this.schedule.heardAt(context.currentTime * 1000 - latency(context)) : NaN;
   }
 
   /** To call by a tap or a key. Rejects where the browser does not allow sound. */
   async start(): Promise<void> {
     // The rate of Opus: otherwise each packet would be resampled by itself, which is heard at its ends.
-    this.context ??= new AudioContext({ sampleRate: this.client.header?.sound?.rate ?? 48_000, latencyHint: 'interactive' });
+    if (!this.context) {
+      this.context = new AudioContext({ sampleRate: this.client.header?.sound?.rate ?? 48_000, latencyHint: 'interactive' });
+      this.schedule = new SoundSchedule(this.context.sampleRate);
+    }
     await this.context.resume();
   }
 
@@ -74,11 +78,6 @@ export class StreamSound {
     this.nodes.clear();
   }
 
-  /** That of what is heard at this moment, ms. */
-  private outputTime(context: AudioContext): number {
-    return context.currentTime * 1000 - latency(context);
-  }
-
   private decode({ mediaTime, packet }: SoundPacket): void {
     const sound = this.client.header?.sound;
     if (!this.isOn || sound?.codec !== 'opus') return;
@@ -97,21 +96,23 @@ export class StreamSound {
 
   private hear(data: AudioData): void {
     const { context } = this;
-    const now = context ? this.outputTime(context) : NaN;
     const { delay, clock } = this.player.stats;
     const shown = (clock?.mediaTime ?? NaN) - delay;
     const packet = { mediaTime: data.timestamp / 1000, duration: (data.numberOfFrames / data.sampleRate) * 1000 };
-    const at = this.isOn ? this.schedule.place(packet, now, shown) : NaN;
-    if (context && !Number.isNaN(at)) {
-      const buffer = new AudioBuffer({ length: data.numberOfFrames, numberOfChannels: data.numberOfChannels, sampleRate: data.sampleRate });
+    // Of the context's time, because the latency changes, at first from 0, while what was placed stays where it is.
+    const placed = context && this.isOn ? this.schedule.place(packet, context.currentTime * 1000, shown + latency(context)) : null;
+    if (context && placed) {
+      const buffer = new AudioBuffer({ length: placed.samples, numberOfChannels: data.numberOfChannels, sampleRate: context.sampleRate });
+      const samples = new Float32Array(data.numberOfFrames);
       for (let channel = 0; channel < data.numberOfChannels; channel += 1) {
-        data.copyTo(buffer.getChannelData(channel), { planeIndex: channel, format: 'f32-planar' });
+        data.copyTo(samples, { planeIndex: channel, format: 'f32-planar' });
+        stretch(samples, buffer.getChannelData(channel));
       }
       const node = new AudioBufferSourceNode(context, { buffer });
       node.connect(context.destination);
       node.onended = () => this.nodes.delete(node);
       this.nodes.add(node);
-      node.start((at + latency(context)) / 1000);
+      node.start(placed.at / 1000);
     }
     data.close();
   }
@@ -120,4 +121,14 @@ export class StreamSound {
 /** ms from a sample's time in the context until it is heard */
 function latency(context: AudioContext): number {
   return (context.outputLatency || context.baseLatency || 0) * 1000;
+}
+
+/** All samples in more or fewer places, between neighbours linearly; a copy for as many. */
+function stretch(from: Float32Array, to: Float32Array): void {
+  if (from.length === to.length) return to.set(from);
+  const step = (from.length - 1) / (to.length - 1);
+  for (let i = 0; i < to.length; i += 1) {
+    const at = Math.min(Math.floor(i * step), from.length - 2);
+    to[i] = from[at]! + (from[at + 1]! - from[at]!) * (i * step - at);
+  }
 }
