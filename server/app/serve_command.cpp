@@ -124,7 +124,8 @@ void declare_serve_options(CLI::App& app, ServeOptions& declared) {
       "takes any; may be given more than once",
       "ALLOW_HOST");
   add("--allow-origin", options->allowed_origins,
-      "Origin whose pages may use the server beside this machine's own, e.g. https://studio.example; * takes all; may "
+      "Origin whose pages may use the server beside its own, also of another port of this machine, e.g. "
+      "http://localhost:5173; * takes all; may "
       "be given more than once",
       "ALLOW_ORIGIN");
   add("--allow-frame", options->frame_origins,
