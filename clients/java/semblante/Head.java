@@ -1,12 +1,14 @@
 package semblante;
 
+import java.util.Objects;
+
 /** A face package and its current pose: frames in, vertices out. */
 public final class Head extends Owner {
     public final int vertexCount;
 
     /** From the bytes of mesh.drc, weights and rig.json of one package. */
     public Head(byte[] meshDrc, byte[] weights, byte[] rigJson) {
-        super(Native.headCreate(meshDrc, weights, rigJson, false));
+        super(Native.headCreate(Objects.requireNonNull(meshDrc), Objects.requireNonNull(weights), Objects.requireNonNull(rigJson), false));
         vertexCount = Native.headVertexCount(handle());
     }
 
@@ -31,11 +33,11 @@ public final class Head extends Owner {
 
     /** Writes the vertices of the current pose: 3 floats each, model units, right-handed. */
     public void positions(float[] to) {
-        Native.headPositions(handle(), to);
+        Native.headPositions(handle(), Objects.requireNonNull(to));
     }
 
     /** Writes the unit normals of `positions`. */
     public void normals(float[] positions, float[] to) {
-        Native.headNormals(handle(), positions, to);
+        Native.headNormals(handle(), Objects.requireNonNull(positions), Objects.requireNonNull(to));
     }
 }

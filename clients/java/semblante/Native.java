@@ -1,6 +1,7 @@
 package semblante;
 
-/** clients/runtime/semblante.h by JNI: semblante_jni.c. A frame is the array of {@link Frame#numbers}; a handle is an address. */
+/** clients/runtime/semblante.h by JNI: semblante_jni.c. A frame is the array of {@link Frame#numbers}; a
+ * handle is an address. Arrays must not be null: JNI ends the process for one. */
 final class Native {
     static {
         System.loadLibrary("semblante_jni");

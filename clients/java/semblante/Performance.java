@@ -1,10 +1,12 @@
 package semblante;
 
+import java.util.Objects;
+
 /** A performance document: the face at any time. */
 public final class Performance extends Owner {
     /** Of UTF-8 text. */
     public Performance(byte[] json) {
-        super(Native.performanceCreate(json));
+        super(Native.performanceCreate(Objects.requireNonNull(json)));
     }
 
     @Override

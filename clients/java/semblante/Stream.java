@@ -1,6 +1,7 @@
 package semblante;
 
 import java.util.List;
+import java.util.Objects;
 import java.util.Random;
 
 /**
@@ -52,7 +53,7 @@ public final class Stream extends Owner {
     }
 
     public void receive(byte[] message, double now) {
-        Native.streamReceive(handle(), message, now);
+        Native.streamReceive(handle(), Objects.requireNonNull(message), now);
     }
 
     /** The next binary message to send; null: none. */

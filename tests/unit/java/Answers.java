@@ -47,6 +47,32 @@ final class Answers {
         return value ? "True" : "False";
     }
 
+    /** JNI ends the process for an array that is null; the classes do not. */
+    private String nulls() {
+        Runnable[] calls = {
+            () -> new Head(null, new byte[1], new byte[1]),
+            () -> new Head(new byte[1], null, new byte[1]),
+            () -> new Head(new byte[1], new byte[1], null),
+            () -> head.positions(null),
+            () -> head.normals(null, new float[3]),
+            () -> head.normals(new float[3], null),
+            () -> new Stream().receive(null, 0),
+            () -> new Performance(null),
+            () -> new Listener(16000).push(null),
+            () -> Bridges.fromArkit(null),
+            () -> head.setFrame(null),
+        };
+        int refused = 0;
+        for (Runnable call : calls) {
+            try {
+                call.run();
+            } catch (NullPointerException error) {
+                ++refused;
+            }
+        }
+        return refused + " of " + calls.length;
+    }
+
     private String answer(String[] words) throws IOException {
         switch (words[0]) {
             case "head":
@@ -69,6 +95,8 @@ final class Answers {
                 for (int i = 0; i < normals.length; i += 3)
                     longest = Math.max(longest, Math.hypot(Math.hypot(normals[i], normals[i + 1]), normals[i + 2]));
                 return String.valueOf(longest);
+            case "null":
+                return nulls();
             case "short":
                 head.positions(new float[3]);
                 return "taken";

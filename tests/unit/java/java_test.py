@@ -59,6 +59,10 @@ class Java(GoldenAnswers, unittest.TestCase):
         self.numbers("head", VECTORS / "face")
         self.assertRegex(self.ask("short"), "^error ")
 
+    def test_nothing_is_refused_without_an_end_of_the_process(self):
+        self.numbers("head", VECTORS / "face")
+        self.assertEqual(self.ask("null"), "11 of 11")
+
 
 if __name__ == "__main__":
     support.main()
