@@ -63,7 +63,13 @@ void say_event(const espeak_EVENT& event) {
 
 /// 1 stops the synthesis.
 int take(short* samples, int count, espeak_EVENT* events) {
-  for (; events->type != espeakEVENT_LIST_TERMINATED; ++events) say_event(*events);
+  for (; events->type != espeakEVENT_LIST_TERMINATED; ++events) {
+    if (events->audio_position > max_seconds * 1000.0) {  // it comes before its samples
+      speaking.too_long = true;
+      return 1;
+    }
+    say_event(*events);
+  }
   for (std::size_t at = 0; samples != nullptr && at < static_cast<std::size_t>(std::max(0, count));) {
     const std::size_t here = std::min(samples_a_line, static_cast<std::size_t>(count) - at);
     if (speaking.samples + here > speaking.most_samples) {

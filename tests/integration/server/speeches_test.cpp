@@ -138,6 +138,12 @@ TEST_F(Speeches, WhatIsWrongIsNamed) {
     body["text"] = bomb;
     expect_problem(say(body), 422, "invalid-field", "/text");
   }
+  // What is not said is the text's fault, not the voice's.
+  for (const char* silent : {"\U0001F600", ":)", "[joy]:)[/joy] \n", "  "}) {
+    auto body = hello_;
+    body["text"] = silent;
+    expect_problem(say(body), 422, "invalid-field", "/text");
+  }
   // The voice says what it cannot serve.
   expect_problem(say({{"text", "<speak>a</speak>"}, {"ssml", true}, {"language", "en"}}), 422, "invalid-field",
                  "/text");

@@ -156,6 +156,15 @@ TEST(VoiceEspeak, TakesSsml_AndIsolatesItself) {
   }
 }
 
+TEST(VoiceEspeak, TextOfMoreThanTheLongestSound_IsRefusedForTheText) {
+  std::string text;  // its last words begin after the longest sound, and events come before their samples
+  for (int i = 0; i < 1200; ++i) text += "mark, name, x. ";
+  const auto got = speak(espeak, asking(text, "en"));
+  ASSERT_FALSE(got.ok());
+  EXPECT_EQ(got.error().where, "text");
+  EXPECT_EQ(got.error().message, "the sound is longer than 1200 s");
+}
+
 TEST(VoiceEspeak, WhatItDoesNotKnow_IsAnError) {
   const auto unknown = speak(espeak, asking("a", "xx")).error();
   EXPECT_EQ(unknown.code, ErrorCode::unsupported);
