@@ -19,6 +19,7 @@ class Characters {
     offsets_.push_back(text.size());
   }
 
+  [[nodiscard]] std::size_t count() const { return offsets_.size() - 1; }
   /// The byte at which a character begins; the end of the text for any beyond it.
   [[nodiscard]] std::size_t byte_of(std::size_t character) const {
     return offsets_[std::min(character, offsets_.size() - 1)];

@@ -26,7 +26,8 @@ std::string timeline_json(const Utterance& utterance, std::string_view text, std
   const Characters characters(text);
   const Loudness loudness(utterance);
   const auto segments = segments_of(utterance, sound_table(language), loudness);
-  Json timeline = {{"format", "semblante.timeline"}, {"version", 1}, {"duration", rounded(utterance.duration)}};
+  Json timeline = {
+      {"format", "semblante.timeline"}, {"version", 1}, {"duration", rounded(utterance.duration)}, {"text", text}};
   Json& sentences = timeline["sentences"] = Json::array();
   for (const SpokenSentence& sentence : utterance.sentences)
     sentences.push_back({{"time", rounded(sentence.time)}, {"first", sentence.first}});

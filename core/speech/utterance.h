@@ -11,6 +11,7 @@ namespace semblante {
 
 // Limits of a speech, whoever makes it.
 inline constexpr double max_speech_seconds = 1'200.0;
+inline constexpr std::size_t max_utterance_text_bytes = 20'000;
 inline constexpr std::uint32_t least_sample_rate = 8'000, most_sample_rate = 48'000;
 
 enum class Stress : std::uint8_t { none, primary, secondary };

@@ -6,6 +6,7 @@
 
 #include "core/json/json_cursor.h"
 #include "core/json/json_tree.h"
+#include "core/speech/characters.h"
 #include "core/speech/viseme_symbols.h"
 #include "core/types/decimal.h"
 #include "core/types/printable.h"
@@ -20,6 +21,7 @@ constexpr std::size_t most_sounds_a_second =
     60;                                       ///< three times as many as anybody says; more would take long to animate
 constexpr double last_sound_ms = 200.0;       ///< of a sound whose end nobody says
 constexpr double past_the_sound_ms = 1000.0;  ///< that an event may come
+constexpr double same_time_ms = 0.1;          ///< what rounding does to a time
 constexpr std::size_t most_symbol_bytes = 32, most_text_bytes = 2000;
 constexpr JsonLimits limits = {.max_bytes = max_timeline_bytes, .max_depth = 8, .max_values = 8 * max_timeline_events};
 
@@ -85,6 +87,19 @@ class Builder {
     if (take_time(time, timeline_.sentences, where))
       timeline_.sentences.push_back({time, on_one_line(std::move(text))});
   }
+  /// Of a file that has the whole text.
+  void whole_text(std::string text) {
+    std::replace_if(
+        text.begin(), text.end(),
+        [](char c) { return (static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t') || c == 0x7F; }, ' ');
+    timeline_.text = std::move(text);
+  }
+  void placed_word(double time, std::string text, std::size_t first, const std::string& where) {
+    if (take_time(time, timeline_.words, where)) timeline_.words.push_back({time, std::move(text), first});
+  }
+  void placed_sentence(double time, std::size_t first, const std::string& where) {
+    if (take_time(time, timeline_.sentences, where)) timeline_.sentences.push_back({time, "", first});
+  }
   void mark(double time, std::string_view name, const std::string& where) {
     if (take_time(time, timeline_.marks, where)) timeline_.marks.push_back({time, printable(name)});
   }
@@ -99,7 +114,9 @@ class Builder {
   Result<VoiceTimeline> finish() && {
     if (fault_) return *std::move(fault_);
     if (timeline_.phonemes.empty()) return Error{ErrorCode::empty, "", "the timeline has no sounds"};
-    if (sound_end_ && !timeline_.phonemes.back().symbol.empty()) timeline_.phonemes.push_back({*sound_end_, ""});
+    const bool fills_the_sound = !timeline_.text.empty() && sound_end_ && *sound_end_ >= timeline_.end;
+    if (sound_end_ && !fills_the_sound && !timeline_.phonemes.back().symbol.empty())
+      timeline_.phonemes.push_back({*sound_end_, ""});
     if (!timeline_.phonemes.back().symbol.empty() && timeline_.phonemes.back().time >= timeline_.end)
       timeline_.end = timeline_.phonemes.back().time + last_sound_ms;
     return std::move(timeline_);
@@ -369,12 +386,26 @@ void read_semblante(std::string_view file, Builder& builder) {
       if (root.failed() || builder.failed()) return;
       builder.stressed_sound(std::move(sound), end, phoneme.pointer());
     }
+    // Places are those of the text: a file without it names its words alone.
+    const auto whole = root.optional_member("text");
+    if (whole) builder.whole_text(whole->text(max_utterance_text_bytes));
     if (const auto words = root.optional_member("words"))
       for (const JsonCursor& word : words->elements(0, max_timeline_events)) {
         const double time = word.member("time").number(0.0, most_ms);
         const std::string text = word.member("text").text(most_text_bytes);
+        const auto first = whole ? word.member("first").integer(0, max_utterance_text_bytes) : 0;
         if (root.failed() || builder.failed()) return;
-        builder.word(time, text, word.pointer());
+        if (whole)
+          builder.placed_word(time, text, static_cast<std::size_t>(first), word.pointer());
+        else
+          builder.word(time, text, word.pointer());
+      }
+    if (const auto sentences = root.optional_member("sentences"); sentences && whole)
+      for (const JsonCursor& sentence : sentences->elements(0, max_timeline_events)) {
+        const double time = sentence.member("time").number(0.0, most_ms);
+        const auto first = sentence.member("first").integer(0, max_utterance_text_bytes);
+        if (root.failed() || builder.failed()) return;
+        builder.placed_sentence(time, static_cast<std::size_t>(first), sentence.pointer());
       }
     if (const auto marks = root.optional_member("marks"))
       for (const JsonCursor& mark : marks->elements(0, max_timeline_events)) {
@@ -469,6 +500,7 @@ Result<VoiceTimeline> read_voice_timeline(std::string_view file, std::optional<T
 }
 
 std::string text_of(const VoiceTimeline& timeline) {
+  if (!timeline.text.empty()) return timeline.text;
   std::string text;
   for (const TimedText& piece : timeline.sentences.empty() ? timeline.words : timeline.sentences) {
     if (piece.text.empty()) continue;
@@ -493,8 +525,18 @@ Result<Utterance> utterance_of(const VoiceTimeline& timeline, std::string_view t
   said.phonemes = timeline.phonemes;
   said.marks = timeline.marks;
   std::size_t lost = 0, from = 0;
+  const bool own = !timeline.text.empty() && text == timeline.text;
+  const Characters characters(text);
   CharacterCount words_count(text), sentences_count(text);
   for (const TimedText& word : timeline.words) {
+    if (own && word.first) {
+      const TextRange range{*word.first, Characters(word.text).count()};
+      if (range.count > 0 && characters.of(range) == word.text)
+        said.words.push_back({word.time, range});
+      else
+        ++lost;
+      continue;
+    }
     const std::size_t at = word.text.empty() ? std::string_view::npos : find_near(text, word.text, from);
     if (at == std::string_view::npos) {
       ++lost;
@@ -506,6 +548,16 @@ Result<Utterance> utterance_of(const VoiceTimeline& timeline, std::string_view t
   }
   from = 0;
   for (const TimedText& sentence : timeline.sentences) {
+    if (sentence.first) {
+      // In another text a sentence begins with its first word.
+      const auto word = std::lower_bound(said.words.begin(), said.words.end(), sentence.time - same_time_ms,
+                                         [](const SpokenWord& one, double time) { return one.time < time; });
+      if (own && *sentence.first <= characters.count())
+        said.sentences.push_back({sentence.time, *sentence.first});
+      else if (!own && word != said.words.end())
+        said.sentences.push_back({sentence.time, word->range.first});
+      continue;
+    }
     const std::size_t at = sentence.text.empty() ? std::string_view::npos : find_near(text, sentence.text, from);
     if (at == std::string_view::npos) continue;
     from = at + sentence.text.size();

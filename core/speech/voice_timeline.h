@@ -32,6 +32,7 @@ inline constexpr std::size_t max_timeline_events = 100'000;  ///< of all kinds t
 struct TimedText {
   double time = 0.0;  ///< ms
   std::string text;
+  std::optional<std::size_t> first = {};  ///< its first character in VoiceTimeline::text
 };
 
 struct VoiceTimeline {
@@ -39,7 +40,8 @@ struct VoiceTimeline {
   std::vector<SpokenPhoneme> phonemes;
   /// The phonemes are sounds that look like the visemes of the file; the table of English has them (viseme_symbols.h).
   bool of_visemes = false;
-  std::vector<TimedText> words, sentences;
+  std::string text;                         ///< the whole that was spoken; empty: the file has only its pieces
+  std::vector<TimedText> words, sentences;  ///< a sentence with its place may have no text
   std::vector<SpokenMark> marks;
   double end = 0.0;  ///< ms: of the last of all
 };
@@ -48,12 +50,12 @@ struct VoiceTimeline {
 /// system. Errors have a JSON pointer or a line in `where`.
 Result<VoiceTimeline> read_voice_timeline(std::string_view file, std::optional<TimelineFormat> format = {});
 
-/// What is said, as far as the timeline knows: its sentences, else its words, else nothing.
+/// What is said, as far as the timeline knows: its text, else its sentences, else its words, else nothing.
 std::string text_of(const VoiceTimeline& timeline);
 
-/// The timeline with its sound (without: `samples` are empty), and its words at their places in `text`. Words that the
-/// text does not have are left out; `missing` is their number. Error: an event comes more than a second after the
-/// sound.
+/// The timeline with its sound (without: `samples` are empty), and its words at their places in `text`: those that the
+/// timeline names, if the text is its own, else where they are found. Words that the text does not have are left out;
+/// `missing` is their number. Error: an event comes more than a second after the sound.
 Result<Utterance> utterance_of(const VoiceTimeline& timeline, std::string_view text, std::optional<Recording> sound,
                                std::size_t* missing = nullptr);
 

@@ -11,7 +11,7 @@ namespace semblante::voice {
 
 // The protocol between Semblante and a voice: README.md.
 inline constexpr int protocol_version = 1;
-inline constexpr std::size_t max_text_bytes = 20'000;
+inline constexpr std::size_t max_text_bytes = max_utterance_text_bytes;
 inline constexpr std::size_t max_request_bytes = 160'000;  ///< every byte of the text escaped as six, and the rest
 inline constexpr std::size_t max_line_bytes = 65'536;      ///< of an answer
 inline constexpr std::size_t max_events = 200'000;         ///< of all kinds together

@@ -124,19 +124,53 @@ TEST(VoiceTimeline, Phonemes_HaveStress) {
   EXPECT_EQ(timeline.phonemes[3].stress, Stress::secondary);
 }
 
-TEST(VoiceTimeline, OursComesBack) {
-  const auto timeline = read(polly);
-  const auto said = utterance_of(timeline, text_of(timeline), std::nullopt);
-  const std::string ours = timeline_json(*said, text_of(timeline), "en");
+TEST(VoiceTimeline, OursComesBack_WhollyWithItsTextAndSentences) {
+  const std::string text = "Olá,\nmundo!  É 1 só: \"pão\"? Sim...";
+  Utterance said;
+  said.duration = 2000.0;
+  said.phonemes = {{0.0, "", Stress::none},       {120.0, "o", Stress::none},      {200.3, "l", Stress::none},
+                   {260.0, "a", Stress::primary}, {900.0, "ɐ̃", Stress::secondary}, {1500.0, "s", Stress::none}};
+  said.words = {{120.0, {0, 3}}, {400.0, {5, 5}}, {900.0, {13, 1}}, {950.0, {15, 1}}, {1500.0, {28, 3}}};
+  said.sentences = {{120.0, 0}, {899.96, 13}, {1500.0, 28}};
+  said.marks = {{700.0, "here"}};
+  const std::string ours = timeline_json(said, text, "pt-BR");
   const auto again = read(ours);
   EXPECT_EQ(again.format, TimelineFormat::semblante);
-  const auto same = utterance_of(again, text_of(timeline), std::nullopt);
-  const auto without_sentences = [](const std::string& text) {
-    auto json = nlohmann::json::parse(text);
-    json.erase("sentences");
-    return json;
-  };
-  EXPECT_EQ(without_sentences(timeline_json(*same, text_of(timeline), "en")), without_sentences(ours));
+  EXPECT_EQ(text_of(again), text);
+  std::size_t missing = 9;
+  const auto same = utterance_of(again, text_of(again), std::nullopt, &missing);
+  ASSERT_TRUE(same);
+  EXPECT_EQ(missing, 0U);
+  EXPECT_EQ(timeline_json(*same, text, "pt-BR"), ours);
+  EXPECT_EQ(web_vtt(*same, text), web_vtt(said, text));
+
+  // Edited: places of another text are found, and its sentences begin with their words.
+  const auto edited = utterance_of(again, "Digo: olá, mundo! É 1 Sim", std::nullopt, &missing);
+  ASSERT_TRUE(edited);
+  EXPECT_EQ(missing, 1U) << "Olá is written otherwise";
+  ASSERT_EQ(edited->sentences.size(), 3U);
+  EXPECT_EQ(edited->sentences[1].first, 18U);
+  EXPECT_EQ(edited->sentences[2].first, 22U);
+
+  // Of before there was a text in it: words alone.
+  auto old = nlohmann::json::parse(ours);
+  old.erase("text");
+  EXPECT_EQ(text_of(read(old.dump())), "Olá mundo É 1 Sim");
+}
+
+TEST(VoiceTimeline, PlacesOfOurs_AreChecked) {
+  auto file = nlohmann::json::parse(R"({"format":"semblante.timeline","version":1,"duration":500,"text":"a b",
+    "words":[{"time":0,"first":0,"count":1,"text":"a"},{"time":9,"first":7,"count":1,"text":"b"}],
+    "sentences":[{"time":0,"first":0},{"time":1,"first":900}],"phonemes":[{"time":0,"end":500,"ipa":"a"}]})");
+  std::size_t missing = 0;
+  const auto said = utterance_of(read(file.dump()), "a b", std::nullopt, &missing);
+  ASSERT_TRUE(said);
+  EXPECT_EQ(missing, 1U);
+  EXPECT_EQ(said->sentences.size(), 1U);
+  file["text"] = std::string(max_utterance_text_bytes + 1, 'a');
+  EXPECT_FALSE(read_voice_timeline(file.dump()));
+  file["text"] = 7;
+  EXPECT_FALSE(read_voice_timeline(file.dump()));
 }
 
 TEST(VoiceTimeline, EverySymbolOfASystem_IsASoundOfTheTableOfEnglish) {
