@@ -93,7 +93,9 @@ class Reader {
     if (!open_.empty()) return Error{ErrorCode::malformed, "text", open_.back().tag + " is not closed"};
     // A smiley is about its sentence to the end, whether or not it stands there.
     for (const Pending& pending : pending_) end_at(pending, sentence_end(pending.sentence));
-    std::erase_if(marked_.emotions, [](const EmotionSpan& span) { return span.range.count == 0; });
+    // Where nothing is said, as of "😀", the emotions are of the face alone.
+    if (!std::all_of(marked_.text.begin(), marked_.text.end(), is_space))
+      std::erase_if(marked_.emotions, [](const EmotionSpan& span) { return span.range.count == 0; });
     return std::move(marked_);
   }
 
@@ -112,9 +114,9 @@ class Reader {
  private:
   /// Whether the first part is long enough, and something ends here.
   [[nodiscard]] bool may_end_here() const {
-    constexpr std::size_t least = 40, long_clause = 160, longest = 320;  // characters
+    constexpr std::size_t long_clause = 160, longest = 320;  // characters
     const std::string_view before = text_.substr(0, at_);
-    if (characters_ < least || before.empty()) return false;
+    if (characters_ < least_part_characters || before.empty()) return false;
     if (!said_since_end_) return !ends_.empty();
     if (!is_space(before.back())) return false;
     const bool is_clause =

@@ -32,7 +32,7 @@ std::vector<std::string> emotion_names();
 /// <emotion name="joy" intensity="0.5">...</emotion>, which nest; emoticons (":)", ":-(") and emoji. A smiley colours
 /// the sentence that it stands in, or ends; before the first word, the first one. Brackets with other words in them are
 /// text. Errors name the byte: a span that is not closed, or closed and not open; an intensity that is not 0 to 1; what
-/// is not UTF-8.
+/// is not UTF-8. Of a text without words the emotions have no range, and are kept.
 Result<MarkedText> read_marked_text(std::string_view text);
 
 /// A text in two, both with their marks; spans that go on are closed in the first and opened again in the rest.
@@ -43,6 +43,7 @@ struct TextParts {
 /// Cuts a text after its first sentences, or after a clause of a long one, so that the first part can be heard while
 /// the rest is made. Errors as those of read_marked_text(), of the first part.
 Result<TextParts> first_part(std::string_view text);
+inline constexpr std::size_t least_part_characters = 40;
 
 /// How an expression changes the voice: factors of rate and pitch at full intensity; 1 for none.
 struct Prosody {

@@ -28,6 +28,14 @@ const SoundTable* find_table(std::string_view language) {
   return at == tables().end() ? nullptr : &*at;
 }
 
+/// The longest symbol of the table that the text begins with.
+const Sound* longest_of(const SoundTable& table, std::string_view text) {
+  const Sound* longest = nullptr;
+  for (const Sound& sound : table.sounds)
+    if (text.starts_with(sound.ipa) && (longest == nullptr || sound.ipa.size() > longest->ipa.size())) longest = &sound;
+  return longest;
+}
+
 }  // namespace
 
 std::span<const SoundTable> sound_tables() { return tables(); }
@@ -42,16 +50,15 @@ LanguageQuality quality_of(std::string_view language) {
 
 const SoundTable& sound_table(std::string_view language) {
   const SoundTable* const table = find_table(language);
-  return table != nullptr ? *table : tables().front();
+  return table != nullptr ? *table : sounds::ipa_chart;
 }
 
 std::vector<Sound> sounds_of(const SoundTable& table, std::string_view symbol) {
   std::vector<Sound> found;
   while (!symbol.empty()) {
-    const Sound* longest = nullptr;
-    for (const Sound& sound : table.sounds)
-      if (symbol.starts_with(sound.ipa) && (longest == nullptr || sound.ipa.size() > longest->ipa.size()))
-        longest = &sound;
+    const Sound* longest = longest_of(table, symbol);
+    // A sound of another language, as in a word that is borrowed.
+    if (longest == nullptr) longest = longest_of(sounds::ipa_chart, symbol);
     if (longest != nullptr) found.push_back(*longest);
     symbol.remove_prefix(longest != nullptr ? longest->ipa.size() : utf8_step(symbol));
   }

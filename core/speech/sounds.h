@@ -40,7 +40,8 @@ struct SoundTable {
 };
 
 std::span<const SoundTable> sound_tables();
-/// The table of "pt-BR" or "en"; of English for a language without one, whose vowels and consonants it reads by IPA.
+/// The table of "pt-BR" or "en"; for a language without one that of the chart of IPA, by place of articulation and
+/// rounding.
 const SoundTable& sound_table(std::string_view language);
 bool has_sound_table(std::string_view language);
 
@@ -48,13 +49,14 @@ bool has_sound_table(std::string_view language);
 enum class LanguageQuality : std::uint8_t {
   measured,  ///< a table of its own, and measured on heads against the sound
   table,     ///< a relative of one of these, read by its table
-  english    ///< read by the table of English
+  english    ///< read by the chart of IPA; the name is of before, when it was the table of English
 };
 inline constexpr std::array<std::string_view, 3> language_quality_names = {"measured", "table", "english"};
 LanguageQuality quality_of(std::string_view language);
 
 /// The sounds of one symbol, in order: one, or several of a diphthong or a syllable ("aɪ", "əl"). Marks of length,
-/// stress, nasality and syllables are skipped; a symbol of unknown letters alone is a neutral vowel.
+/// stress, nasality and syllables are skipped; what the table does not have is read by the chart of IPA; a symbol of
+/// unknown letters alone is a neutral vowel.
 std::vector<Sound> sounds_of(const SoundTable& table, std::string_view symbol);
 
 namespace sounds {

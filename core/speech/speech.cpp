@@ -21,6 +21,9 @@ std::optional<Interval> time_of(const TextRange& range, const Utterance& utteran
   if (utterance.words.empty()) {
     for (const Segment& segment : segments)
       if (!segment.is_silence()) found = Interval{found ? found->begin : segment.begin, segment.end};
+    // Nothing is said: the face shows it for as long as there is time.
+    if (!found && utterance.duration > emotion_release_ms)
+      found = Interval{0.0, utterance.duration - emotion_release_ms};
     return found;
   }
   for (std::size_t i = 0; i < utterance.words.size(); ++i) {

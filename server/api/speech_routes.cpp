@@ -144,8 +144,11 @@ http::Response speech_file(Context& context, const http::Request& request, std::
 /// What a speech of a part leaves to say. It follows from the request, and is not stored.
 std::string rest_of(const SpeechRecord& speech) {
   const auto request = read_json(speech.request);
-  if (!request || !request->value("part", false) || request->value("ssml", false)) return {};
-  const auto parts = first_part(request->value("text", ""));
+  if (!request || !request->value("part", false)) return {};
+  voice::VoiceRequest said;
+  said.text = request->value("text", "");
+  said.ssml = request->value("ssml", false);
+  const auto parts = voice::first_part_of(said);
   return parts ? parts->rest : std::string();
 }
 
@@ -202,10 +205,6 @@ std::vector<SpeechText> texts_of(Context& context, const SpeechRecord& record, c
   speech.text = record.text;
   speech.utterance = *std::move(said);
   speech.performance = script;
-  speech.utterance.sentences.clear();  // of a timeline of its own the reader takes none
-  if (const auto document = read_json(file.text()))
-    for (const auto& sentence : document->value("sentences", nlohmann::json::array()))
-      speech.utterance.sentences.push_back({sentence.value("time", 0.0), sentence.value("first", std::size_t{0})});
   const auto request = read_json(record.request);
   if (request) speech.sounds = request->value("language", "");
   return voice::speech_texts(speech);

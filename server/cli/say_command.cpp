@@ -200,7 +200,7 @@ void add_say_command(CLI::App& app, const std::string& sample_head) {
   command->add_flag(
       "--list-voices", options->list_voices,
       "Print the voices of the voice program, of --language if it is given: name, language, quality of its "
-      "mouths (measured, table of a relative, table of English), description");
+      "mouths (measured, table of a relative; english: the chart of IPA), description");
   command
       ->add_flag("--ssml", options->request.ssml,
                  "The text is SSML: break, prosody, mark, say-as, emphasis; <emotion name=\"joy\"> and <prosody "

@@ -19,7 +19,8 @@ namespace {
 constexpr const char* sounds_of_visemes = "en";  // the table that has the sounds of viseme_symbols.h
 
 std::string no_table_warning(const std::string& language) {
-  return printable(language) + " has no table of sounds of its own: mouths are those of English";
+  return printable(language) +
+         " has no table of sounds of its own: mouths are by the chart of IPA, and were not measured";
 }
 
 Error in(const char* part, const Error& error) {
@@ -64,6 +65,18 @@ struct Spoken {
   Utterance utterance;
 };
 
+/// What is said of "😀": nothing, for so long that the face can show it.
+Utterance silent_face() {
+  constexpr double silent_face_ms = 2'000.0;
+  Utterance silence;
+  silence.voice = "none";
+  silence.sample_rate = least_sample_rate;
+  silence.duration = silent_face_ms;
+  silence.samples.resize(static_cast<std::size_t>(silent_face_ms * least_sample_rate / 1000.0));
+  silence.phonemes = {{0.0, "", Stress::none}};
+  return silence;
+}
+
 /// `text`: of the request, or a part of it.
 Result<Spoken> spoken(const VoiceProgram& program, const SpeechRequest& request, std::string_view text,
                       const std::function<bool()>& wanted = {}) {
@@ -83,6 +96,11 @@ Result<Spoken> spoken(const VoiceProgram& program, const SpeechRequest& request,
     wish.text = said.marked.text;
   }
   add_whole(said.marked, request.expression, request.intensity);
+  const bool has_words = wish.text.find_first_not_of(" \t\n") != std::string::npos;
+  if (!has_words && !said.marked.emotions.empty()) {
+    said.utterance = silent_face();
+    return said;
+  }
   auto utterance = speak(program, wish, wanted);
   if (!utterance) return utterance.error();
   if (wish.ssml) place_in_text(ssml, *utterance);
@@ -138,12 +156,17 @@ SpeechOptions face_of(const SpeechRequest& request) {
 
 }  // namespace
 
+Result<TextParts> first_part_of(const VoiceRequest& request) {
+  if (request.ssml) return first_part_of_ssml(request.text);
+  return first_part(request.text);
+}
+
 Result<Speech> make_speech(const VoiceProgram& program, const SpeechRequest& given) {
   const auto request = with_prosody(given);
   if (!request) return request.error();
   TextParts parts{request->voice.text, {}};
-  if (request->part && !request->voice.ssml) {
-    auto cut = first_part(request->voice.text);
+  if (request->part) {
+    auto cut = first_part_of(request->voice);
     if (!cut) return cut.error();
     parts = *std::move(cut);
   }
@@ -166,12 +189,9 @@ Result<SpeechParts> SpeechParts::read(VoiceProgram program, SpeechRequest reques
 }
 
 Result<SpeechPart> SpeechParts::next(const std::function<bool()>& wanted) {
-  TextParts parts{request_.voice.text, {}};
-  if (!request_.voice.ssml) {
-    auto cut = first_part(request_.voice.text);
-    if (!cut) return cut.error();
-    parts = *std::move(cut);
-  }
+  auto cut = first_part_of(request_.voice);
+  if (!cut) return cut.error();
+  TextParts parts = *std::move(cut);
   auto said = spoken(program_, request_, parts.first, wanted);
   // A voice says nothing of "* * *"; the text goes on.
   if (!said && said.error().code == ErrorCode::empty && !first_) {
@@ -182,7 +202,7 @@ Result<SpeechPart> SpeechParts::next(const std::function<bool()>& wanted) {
   if (!said) return said.error();
   SpeechPart part;
   part.lead = first_ ? 0.0 : emotion_lead_ms;
-  done_ = is_blank(parts.rest);
+  done_ = request_.voice.ssml ? parts.rest.empty() : is_blank(parts.rest);
   part.sound = with_silence(said->utterance, first_ ? speech_lead_ms : 0.0, done_ ? speech_tail_ms : 0.0);
   said_ms_ += part.sound.duration;
   if (said_ms_ > max_seconds * 1000.0)

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/performance/cue.h"
+#include "core/speech/marked_text.h"
 #include "core/speech/speech.h"
 #include "core/speech/utterance.h"
 #include "core/speech/voice_timeline.h"
@@ -24,9 +25,12 @@ struct SpeechRequest {
   VoiceRequest voice;           ///< its text has marks, unless it is SSML
   std::uint8_t expression = 0;  ///< of the whole text, 0..6; a mark within it is laid over it
   double intensity = 1.0;       ///< of `expression`
-  bool part = false;            ///< only first_part() of the text, as it is within the whole; of SSML the whole
+  bool part = false;            ///< only first_part() of the text, as it is within the whole
   SpeechOptions face;           ///< its language is the voice's
 };
+
+/// What is said first of the text of a request, and the rest. Errors: those of first_part().
+Result<TextParts> first_part_of(const VoiceRequest& request);
 
 /// A face that says a text, with its sound.
 struct Speech {
@@ -50,8 +54,8 @@ struct SpeechPart {
 };
 
 /// A text in parts, sentence by sentence, so that the first can be heard while the others are made. Together their
-/// sound is that of the whole text; only the first begins with silence, and only the last ends with it. SSML is one
-/// part. One thread.
+/// sound is that of the whole text; only the first begins with silence, and only the last ends with it. SSML is cut
+/// where first_part_of_ssml() can. One thread.
 class SpeechParts {
  public:
   /// Checks the request. Errors: those of check() and read_marked_text().

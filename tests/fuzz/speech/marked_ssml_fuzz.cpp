@@ -26,6 +26,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (ssml->places[i] < ssml->places[i - 1]) std::abort();
   for (const EmotionSpan& span : ssml->said.emotions)
     if (span.expression < 1 || span.expression > 6 || span.range.first + span.range.count > said) std::abort();
+  // Two parts say what the whole says.
+  const auto parts = first_part_of_ssml(text);
+  if (!parts.rest.empty()) {
+    const auto first = read_marked_ssml(parts.first), rest = read_marked_ssml(parts.rest);
+    if (!first || !rest || first->said.text + rest->said.text != ssml->said.text) std::abort();
+    if (parts.rest.size() >= text.size()) std::abort();
+  }
   // The voice sees no emotion any more.
   if (const auto again = read_marked_ssml(ssml->document); !again || !again->said.emotions.empty()) std::abort();
   return 0;

@@ -77,5 +77,42 @@ TEST(MarkedSsml, WhatIsWrong_IsNamedWithItsByte) {
   }
 }
 
+TEST(SsmlParts, AreCutBetweenSentences_AndElementsGoOn) {
+  const std::string text =
+      "<speak><p>Good morning to everybody who is here today! </p><prosody rate=\"slow\"><emotion name=\"joy\">It is "
+      "warm and sunny outside, 3.5 degrees more. And it stays so.</emotion></prosody></speak>";
+  const auto first = first_part_of_ssml(text);
+  EXPECT_EQ(first.first, "<speak><p>Good morning to everybody who is here today! </p></speak>");
+  const auto second = first_part_of_ssml(first.rest);
+  EXPECT_EQ(second.first,
+            "<speak><prosody rate=\"slow\"><emotion name=\"joy\">It is warm and sunny outside, 3.5 degrees more. "
+            "</emotion></prosody></speak>");
+  EXPECT_EQ(second.rest,
+            "<speak><prosody rate=\"slow\"><emotion name=\"joy\">And it stays so.</emotion></prosody></speak>");
+  EXPECT_EQ(first_part_of_ssml(second.rest).rest, "");
+  // Together they say what the whole says, with its emotions.
+  const auto whole = read_marked_ssml(text), a = read_marked_ssml(first.first), b = read_marked_ssml(second.first),
+             c = read_marked_ssml(second.rest);
+  ASSERT_TRUE(whole && a && b && c);
+  EXPECT_EQ(a->said.text + b->said.text + c->said.text, whole->said.text);
+  EXPECT_TRUE(a->said.emotions.empty());
+  EXPECT_EQ(b->said.emotions.at(0).expression, c->said.emotions.at(0).expression);
+}
+
+TEST(SsmlParts, WhatCannotBeCut_IsWhole) {
+  const std::string filler = "This is a sentence with more than forty characters";
+  for (const std::string& text :
+       {"<speak><s>" + filler + ", and. another. one</s></speak>",
+        "<speak><say-as interpret-as=\"x\">" + filler + ". And more.</say-as></speak>",
+        "<speak>" + filler + ". </speak>", "<speak>" + filler + ". <break/><mark name=\"a\"/></speak>",
+        "<speak><p>" + filler + ". More.</speak></p>", "<speak>" + filler + ". <a b>More.",
+        std::string("<speak>\xFF") + filler + ". More</speak>", std::string("<speak><!-- ") + filler + ". More"}) {
+    const auto parts = first_part_of_ssml(text);
+    EXPECT_EQ(parts.first, text);
+    EXPECT_EQ(parts.rest, "");
+  }
+  EXPECT_EQ(first_part_of_ssml("<speak><s>" + filler + "</s><s>More</s></speak>").rest, "<speak><s>More</s></speak>");
+}
+
 }  // namespace
 }  // namespace semblante

@@ -33,6 +33,21 @@ TEST(Sounds, UnknownSymbols_AreANeutralVowel) {
   EXPECT_EQ(visemes("xx", "m"), (std::vector<int>{p_b_m}));
 }
 
+TEST(Sounds, OfOtherLanguages_AreReadByTheChart) {
+  EXPECT_EQ(visemes("fr", "y"), (std::vector<int>{u})) << "rounded";
+  EXPECT_EQ(visemes("de", "øː"), (std::vector<int>{o}));
+  EXPECT_EQ(visemes("fr", "ɑ̃"), (std::vector<int>{a}));
+  EXPECT_EQ(visemes("it", "r"), (std::vector<int>{t_d})) << "lips stay where they are";
+  EXPECT_EQ(visemes("ja", "tɕ"), (std::vector<int>{ch_j_sh}));
+  EXPECT_EQ(sounds_of(sound_table("es"), "β")[0].kind, SoundKind::lip_and_teeth) << "lips come near, and do not close";
+  EXPECT_EQ(visemes("en", "œ"), (std::vector<int>{o})) << "of a borrowed word";
+  // The symbols that espeak-ng 1.51 gives for texts in these languages.
+  for (const char* symbol :
+       {"ə-", "ɔ̃",  "ɛ̃", "ɥ", "ʁ", "ʎ", "ɲ", "ɣ", "ð", "ç", "x", "pf", "ts", "ʏ", "œ", "ø", "ɽ", "ɕ",
+        "o̞",  "ɯᵝ", "ä", "ħ", "ʕ", "ʲ", "ɨ", "ʂ", "ɪ", "ʊ", "ɐ", "tː", "dʒ", "ɟ", "c", "q", "ɭ", "ʋ"})
+    EXPECT_FALSE(sounds_of(sound_table("xx"), symbol).front().ipa.empty()) << symbol;
+}
+
 /// The symbols that espeak-ng 1.51 gives for texts with all sounds of the language.
 TEST(Sounds, Tables_HaveEverySymbolOfTheirVoice) {
   const std::pair<const char*, std::vector<const char*>> voices[] = {

@@ -1,5 +1,7 @@
 #include "server/voice/speech_texts.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "protocol/cpp/frame_codec.h"
@@ -148,6 +150,31 @@ TEST(SpeechTexts, TextWithoutSpaces_IsCutToAMessage) {
   }
 }
 
+TEST(SpeechWithoutWords, OfASmileyAlone_IsAFaceThatShowsIt) {
+  for (const auto& [text, expression] : {std::pair{"😀", 1}, std::pair{" :( ", 2}, std::pair{"😠😠", 3}}) {
+    SpeechRequest request;
+    request.voice.text = text;
+    request.voice.language = "pt-BR";
+    const auto speech = make_speech({}, request);  // no voice is needed
+    ASSERT_TRUE(speech) << text << speech.error().message;
+    EXPECT_GT(speech->utterance.duration, 2000.0);
+    EXPECT_TRUE(std::all_of(speech->utterance.samples.begin(), speech->utterance.samples.end(),
+                            [](std::int16_t sample) { return sample == 0; }));
+    EXPECT_TRUE(std::any_of(speech->performance.cues.begin(), speech->performance.cues.end(), [&](const Cue& cue) {
+      const auto* const target = std::get_if<ExpressionTarget>(&cue.target);
+      return target != nullptr && target->expression == expression && cue.duration.value_or(0.0) > 1000.0;
+    })) << text;
+    auto parts = SpeechParts::read({}, request);
+    ASSERT_TRUE(parts);
+    EXPECT_TRUE(parts->next());
+    EXPECT_TRUE(parts->done());
+  }
+  SpeechRequest nothing;
+  nothing.voice.text = " ";
+  nothing.voice.language = "en";
+  EXPECT_FALSE(make_speech({}, nothing));
+}
+
 TEST(SpeechTexts, NoWords_NoTexts) {
   Speech speech = two_sentences();
   speech.utterance.words.clear();
@@ -183,6 +210,43 @@ TEST(SpeechTexts, OfTheVoice_CanBeRead_AndSayTheWholeText) {
     EXPECT_TRUE(joyful);
     EXPECT_LE(before, speech->utterance.duration);
   }
+}
+
+TEST(SpeechParts, OfLongSsml_SayWhatTheWholeSays) {
+  SpeechRequest request;
+  request.voice.language = "en";
+  request.voice.ssml = true;
+  request.voice.text =
+      "<speak><p>Good morning to everybody who is here with us today.</p><break time=\"500ms\"/><prosody "
+      "rate=\"80%\">It is "
+      "warm and sunny outside, so we begin. <emotion name=\"joy\">Everybody will have a very good time of it, I am "
+      "sure. "
+      "Nothing is missing.</emotion></prosody></speak>";
+  VoiceProgram program;
+  program.command = {SEMBLANTE_VOICE_ESPEAK};
+  const auto whole = make_speech(program, request);
+  ASSERT_TRUE(whole) << whole.error().message;
+  auto parts = SpeechParts::read(program, request);
+  ASSERT_TRUE(parts);
+  double ms = 0.0, first_ms = 0.0;
+  std::size_t phonemes = 0, count = 0;
+  for (; !parts->done(); ++count) {
+    const auto part = parts->next();
+    ASSERT_TRUE(part) << part.error().message;
+    ms += part->sound.duration;
+    if (count == 0) first_ms = ms;
+    for (const auto& phoneme : part->sound.phonemes) phonemes += phoneme.symbol.empty() ? 0 : 1;
+  }
+  EXPECT_GE(count, 3U);
+  EXPECT_LT(first_ms, 0.4 * ms);
+  EXPECT_EQ(phonemes,
+            static_cast<std::size_t>(std::count_if(whole->utterance.phonemes.begin(), whole->utterance.phonemes.end(),
+                                                   [](const auto& phoneme) { return !phoneme.symbol.empty(); })));
+  EXPECT_NEAR(ms, whole->utterance.duration, 0.03 * whole->utterance.duration);
+  request.part = true;
+  const auto first = make_speech(program, request);
+  ASSERT_TRUE(first);
+  EXPECT_EQ(first->text, "Good morning to everybody who is here with us today.");
 }
 #endif
 

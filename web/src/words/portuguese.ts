@@ -498,8 +498,8 @@ export const portuguese = {
   Listening: 'Ouvindo',
   'Remove the recording': 'Remover a gravação',
   Default: 'Padrão',
-  'Mouths are those of English: this language has no table of its own.':
-    'As bocas são as do inglês: este idioma não tem tabela própria.',
+  'Mouths in this language follow the chart of IPA and were not measured.':
+    'As bocas neste idioma seguem a tabela do AFI e não foram medidas.',
   'As the text says': 'Como diz o texto',
   Speed: 'Velocidade',
   Speak: 'Falar',

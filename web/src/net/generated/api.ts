@@ -733,7 +733,7 @@ export interface paths {
         put?: never;
         /**
          * The face of the stream says a text, or a stored speech, from now on
-         * @description As a performance: while it speaks it is the stream's one source. A text is made sentence by sentence: the first plays while the others are made (`complete` is false), so a long text begins as soon as a short one; SSML begins when all of it has been made. If the voice is slower than its own speech, the face rests between sentences until the next one is there. Errors of the first sentence are the answer of this request; if a later one cannot be made, the play ends with what was made, and `failure` of it says why, at its address and as `failed` of the stream until another play begins. Stopping or replacing it ends the making, too. Its sound is heard by the subscribers that asked for sound (protocol/SPEC.md, 2.1); the sound of a stored speech is also at its own address. Recordings of the stream keep it.
+         * @description As a performance: while it speaks it is the stream's one source. A text is made sentence by sentence: the first plays while the others are made (`complete` is false), so a long text begins as soon as a short one; SSML likewise, cut between sentences outside all elements but speak, p, prosody and emotion; without such a place it begins when all of it has been made. If the voice is slower than its own speech, the face rests between sentences until the next one is there. Errors of the first sentence are the answer of this request; if a later one cannot be made, the play ends with what was made, and `failure` of it says why, at its address and as `failed` of the stream until another play begins. Stopping or replacing it ends the making, too. Its sound is heard by the subscribers that asked for sound (protocol/SPEC.md, 2.1); the sound of a stored speech is also at its own address. Recordings of the stream keep it.
          */
         post: operations["speakIntoStream"];
         delete?: never;
@@ -1085,7 +1085,7 @@ export interface components {
              * @default false
              */
             ssml?: boolean;
-            /** @description BCP 47, of the text. Mouths are made for pt-BR and en; for other languages by the table of en */
+            /** @description BCP 47, of the text. Mouths are made for pt-BR and en; for other languages by the chart of IPA */
             language: string;
             /**
              * @description A name that the voice program knows; empty: its own choice
@@ -1122,7 +1122,7 @@ export interface components {
              */
             seed?: number;
             /**
-             * @description Only the first sentences of a long text, as they are within the whole, so that they can be heard while the whole is made; `rest` is what comes after. Of SSML the whole
+             * @description Only the first sentences of a long text, as they are within the whole, so that they can be heard while the whole is made; `rest` is what comes after. SSML is cut between sentences outside all elements but speak, p, prosody and emotion; without such a place it is the whole
              * @default false
              */
             part?: boolean;
@@ -1176,7 +1176,7 @@ export interface components {
              * @default false
              */
             ssml?: boolean;
-            /** @description BCP 47, of the text. Mouths are made for pt-BR and en; for other languages by the table of en */
+            /** @description BCP 47, of the text. Mouths are made for pt-BR and en; for other languages by the chart of IPA */
             language?: string;
             /**
              * @description A name that the voice program knows; empty: its own choice
@@ -1247,7 +1247,7 @@ export interface components {
                 /** @description BCP 47 */
                 language: string;
                 /**
-                 * @description Of the mouth in this language: measured on heads against the sound; by the table of a relative; by the table of English
+                 * @description Of the mouth in this language: measured on heads against the sound; by the table of a relative; by the chart of IPA (`english`)
                  * @enum {unknown}
                  */
                 quality: "measured" | "table" | "english";
@@ -1265,6 +1265,8 @@ export interface components {
             /** @constant */
             version: 1;
             duration: number;
+            /** @description The whole that was spoken, in which the places are; speeches of before there was one have none */
+            text?: string;
             sentences: {
                 time: number;
                 first: number;

@@ -105,7 +105,7 @@ export class SpeechForm {
       ...fitting.map(({ voice, label }) => h('option', { value: voice }, label || voice)),
     );
     this.quality.hidden = fitting[0]?.quality !== 'english';
-    this.quality.textContent = t('Mouths are those of English: this language has no table of its own.');
+    this.quality.textContent = t('Mouths in this language follow the chart of IPA and were not measured.');
   }
 }
 
