@@ -38,7 +38,7 @@ class Cursor : public streams::FrameCursor {
 class Sound : public streams::SoundCursor {
  public:
   Sound(SharedReader reader, std::uint32_t ms) : cursor_(std::move(reader), ms) {}
-  [[nodiscard]] const SoundPacket* packet() const override { return cursor_.packet(); }
+  [[nodiscard]] const SoundPacket* current() const override { return cursor_.packet(); }
   void advance() override { cursor_.advance(); }
 
  private:

@@ -21,30 +21,23 @@ class FrameCursor {
   virtual void advance() = 0;
 };
 
-/// Iterates over the sound of a source, in order of time. One thread.
-class SoundCursor {
+/// Iterates over what a source sends beside its frames, in order of time. One thread.
+template <class Message>
+class MessageCursor {
  public:
-  virtual ~SoundCursor() = default;
-  /// The current packet, with its time in ms after the beginning of the source; null after the last one. Valid until
+  virtual ~MessageCursor() = default;
+  /// The current message, with its time in ms after the beginning of the source; null after the last one. Valid until
   /// advance().
-  [[nodiscard]] virtual const SoundPacket* packet() const = 0;
+  [[nodiscard]] virtual const Message* current() const = 0;
   virtual void advance() = 0;
 };
+using SoundCursor = MessageCursor<SoundPacket>;
+using TextCursor = MessageCursor<SpeechText>;
 
 /// Whether more of a source is to come while it plays.
 struct Making {
   bool complete = true;
   std::string failure = {};  ///< for people: why it ends early; empty: it does not
-};
-
-/// Iterates over the sentences of a source that speaks, in order of time. One thread.
-class TextCursor {
- public:
-  virtual ~TextCursor() = default;
-  /// The current sentence, with its time in ms after the beginning of the source; null after the last one. Valid until
-  /// advance().
-  [[nodiscard]] virtual const SpeechText* text() const = 0;
-  virtual void advance() = 0;
 };
 
 /// A source that has a face for every time and can be played into a stream: a performance, a .fap file, a recording.

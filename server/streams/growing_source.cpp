@@ -11,42 +11,29 @@ namespace {
 /// From a part's place to its first packet: coding takes 10 ms, and the player looks 25 times a second.
 constexpr double ahead_ms = 120.0;
 
-/// The first message at or after `ms`.
-template <class Message>
-std::size_t first_at(const std::deque<Message>& messages, double ms) {
-  const auto first = std::find_if(messages.begin(), messages.end(),
-                                  [ms](const Message& one) { return static_cast<double>(one.media_time) >= ms; });
-  return static_cast<std::size_t>(first - messages.begin());
-}
-
 }  // namespace
 
-class GrowingSource::Sound : public SoundCursor {
+/// Over messages that stay where they are when others come, guarded by the source's mutex.
+template <class Message>
+class GrowingSource::Cursor : public MessageCursor<Message> {
  public:
-  Sound(const GrowingSource& source, std::size_t next) : source_(source), next_(next) {}
-  [[nodiscard]] const SoundPacket* packet() const override {
+  /// From the first message at or after `ms` on; with the mutex.
+  Cursor(const GrowingSource& source, const std::deque<Message>& messages, double ms)
+      : source_(source), messages_(messages) {
+    const auto first = std::find_if(messages.begin(), messages.end(),
+                                    [ms](const Message& one) { return static_cast<double>(one.media_time) >= ms; });
+    next_ = static_cast<std::size_t>(first - messages.begin());
+  }
+  [[nodiscard]] const Message* current() const override {
     const std::lock_guard lock(source_.mutex_);
-    return next_ < source_.sound_.size() ? &source_.sound_[next_] : nullptr;
+    return next_ < messages_.size() ? &messages_[next_] : nullptr;
   }
   void advance() override { ++next_; }
 
  private:
   const GrowingSource& source_;
-  std::size_t next_;
-};
-
-class GrowingSource::Texts : public TextCursor {
- public:
-  Texts(const GrowingSource& source, std::size_t next) : source_(source), next_(next) {}
-  [[nodiscard]] const SpeechText* text() const override {
-    const std::lock_guard lock(source_.mutex_);
-    return next_ < source_.texts_.size() ? &source_.texts_[next_] : nullptr;
-  }
-  void advance() override { ++next_; }
-
- private:
-  const GrowingSource& source_;
-  std::size_t next_;
+  const std::deque<Message>& messages_;
+  std::size_t next_ = 0;
 };
 
 Result<double> GrowingSource::add_part(const PerformanceScript& part, double lead, double length) {
@@ -104,12 +91,12 @@ FaceFrame GrowingSource::frame_at(double ms, double played_ms) const {
 
 std::unique_ptr<SoundCursor> GrowingSource::sound_from(double ms) const {
   const std::lock_guard lock(mutex_);
-  return std::make_unique<Sound>(*this, first_at(sound_, ms));
+  return std::make_unique<Cursor<SoundPacket>>(*this, sound_, ms);
 }
 
 std::unique_ptr<TextCursor> GrowingSource::texts_from(double ms) const {
   const std::lock_guard lock(mutex_);
-  return std::make_unique<Texts>(*this, first_at(texts_, ms));
+  return std::make_unique<Cursor<SpeechText>>(*this, texts_, ms);
 }
 
 std::size_t GrowingSource::bytes() const {

@@ -47,8 +47,8 @@ class GrowingSource : public FrameSource {
   [[nodiscard]] std::size_t bytes() const override;
 
  private:
-  class Sound;
-  class Texts;
+  template <class Message>
+  class Cursor;
   [[nodiscard]] std::size_t bytes_now() const { return face_.bytes() + sound_bytes_ + text_bytes_; }
 
   const QuantizerSteps steps_;

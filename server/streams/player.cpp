@@ -54,27 +54,27 @@ void Player::play(Clock::time_point now) {
 }
 
 Player::Clock::time_point Player::next_sound_time() const {
-  const auto* sound = finished_ || !sound_ ? nullptr : sound_->packet();
+  const auto* sound = finished_ || !sound_ ? nullptr : sound_->current();
   if (sound == nullptr) return Clock::time_point::max();
   return time_of(static_cast<double>(sound->media_time) - options_.from);
 }
 
 void Player::play_sound(Clock::time_point now) {
   for (auto when = next_sound_time(); when <= now; when = next_sound_time()) {
-    if (now - when <= latest_sound) stream_->publish_sound(ticket_, when, sound_->packet()->packet);
+    if (now - when <= latest_sound) stream_->publish_sound(ticket_, when, sound_->current()->packet);
     sound_->advance();
   }
 }
 
 Player::Clock::time_point Player::next_text_time() const {
-  const auto* text = finished_ || !texts_ ? nullptr : texts_->text();
+  const auto* text = finished_ || !texts_ ? nullptr : texts_->current();
   if (text == nullptr) return Clock::time_point::max();
   return std::max(begin_, time_of(static_cast<double>(text->media_time) - options_.from) - text_lead);
 }
 
 void Player::play_texts(Clock::time_point now) {
   while (next_text_time() <= now) {
-    const auto& text = *texts_->text();
+    const auto& text = *texts_->current();
     stream_->publish_text(ticket_, time_of(static_cast<double>(text.media_time) - options_.from), text);
     texts_->advance();
   }

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "protocol/cpp/json_codec.h"
-#include "server/streams/performance_source.h"
+#include "server/streams/growing_source.h"
 #include "server/streams/player.h"
 #include "server/streams/stream.h"
 #include "server/streams/stream_header.h"
@@ -173,26 +173,21 @@ TEST_F(SoundTest, SoundOfAClient_IsRefused) {
   EXPECT_EQ(std::get<StreamError>(answers[0]).code, StreamErrorCode::invalid_argument);
 }
 
-/// Three packets of 60 ms, the second of which is silent.
-class Speaking : public FrameSource {
- public:
-  [[nodiscard]] std::string_view kind() const override { return "speaking"; }
-  [[nodiscard]] std::string name() const override { return ""; }
-  [[nodiscard]] double duration() const override { return 400.0; }
-  [[nodiscard]] FaceFrame frame_at(double, double) const override { return {}; }
-  [[nodiscard]] std::unique_ptr<SoundCursor> sound_from(double ms) const override { return packets_from(sound_, ms); }
-  [[nodiscard]] std::size_t bytes() const override { return 1000; }
-
- private:
-  const std::vector<SoundPacket> sound_ = {{0, packet}, {120, packet}};
-};
+/// 400 ms, with three packets of 60 ms, the second of which is silent.
+std::shared_ptr<const FrameSource> speaking() {
+  auto source = std::make_shared<GrowingSource>(standard_quantizers());
+  EXPECT_TRUE(source->add_part({}, 0.0, 400.0));
+  EXPECT_TRUE(source->add_sound({{0, packet}, {120, packet}}));
+  source->finish();
+  return source;
+}
 
 class SoundPlayerTest : public SoundTest {
  protected:
   Player player(double from) {
     PlayOptions options;
     options.from = from;
-    return {"1", stream_, ticket_, std::make_shared<Speaking>(), options, began_};
+    return {"1", stream_, ticket_, speaking(), options, began_};
   }
 };
 

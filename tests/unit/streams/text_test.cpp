@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "protocol/cpp/json_codec.h"
-#include "server/streams/performance_source.h"
+#include "server/streams/growing_source.h"
 #include "server/streams/player.h"
 #include "server/streams/stream.h"
 #include "tests/unit/streams/fake_socket.h"
@@ -218,6 +218,23 @@ TEST_F(TextTest, SlowReader_GetsNewestStateAndText) {
   EXPECT_EQ(all_of<SpeechText>(got).size(), 1U);
 }
 
+TEST_F(TextTest, SlowReader_StillGetsTheEndOfASpeechThatIsStopped) {
+  const auto slow = reader();
+  text();
+  ASSERT_EQ(all_of<SpeechText>(slow->take_all()).size(), 1U);
+  slow->socket->stop_reading();
+  for (int k = 0; k < 8; ++k) text(100);  // more than wait for it
+  stream_->end_playing(ticket_, true);
+  slow->socket->read_again(*slow->connection);
+  const auto got = slow->take_all();
+  const auto texts = all_of<SpeechText>(got);
+  ASSERT_FALSE(texts.empty());
+  EXPECT_EQ(texts.back().text, "") << "its voice still speaks";
+  ASSERT_TRUE(std::holds_alternative<Keyframe>(got.back())) << "and then come frames";
+  ASSERT_TRUE(stream_->publish_request({frame_with(7)}));
+  EXPECT_TRUE(all_of<SpeechText>(slow->take_all()).empty()) << "once";
+}
+
 TEST_F(TextTest, Boundaries_AreCounted_AndCheckedAgainstWhatWasSent) {
   const auto reads = reader();
   text();
@@ -263,12 +280,10 @@ TEST_F(TextTest, ReaderThatLeaves_IsSentNothing) {
 
 TEST_F(TextTest, Player_SendsASentenceASecondBeforeItsTime) {
   const auto reads = reader();
-  auto script = PerformanceScript{};
-  script.duration = 4000.0;
-  auto performance = Performance::compile(script);
-  ASSERT_TRUE(performance);
-  const auto source =
-      make_performance_source(*std::move(performance), standard_quantizers(), {}, {sentence(120), sentence(2000)});
+  const auto source = std::make_shared<GrowingSource>(standard_quantizers());
+  ASSERT_TRUE(source->add_part({}, 0.0, 4000.0));
+  ASSERT_TRUE(source->add_texts({sentence(120), sentence(2000)}));
+  source->finish();
   Player player("1", stream_, ticket_, source, {}, began_);
   player.play(began_);
   const auto first = reads->take_all();
