@@ -37,5 +37,10 @@ test('Studio_FirstVisit_MovesWithAtMost900kB_OfItScript300kB', async () => {
   expect(sum(script)).toBeGreaterThan(100_000);
   expect(sum(script)).toBeLessThanOrEqual(300_000);
   expect(before.map(({ path }) => path)).not.toContain('/v1/models/sample/preview.glb');
+  // Without a graphics card, as here, most of the wait is for the surroundings that light the head.
+  const side = await page.evaluate(
+    () => (window as unknown as { semblante: { scene: { stage: { scene: { environment: { mipmaps: { width: number }[] } } } } } }).semblante.scene.stage.scene.environment.mipmaps[0]!.width,
+  );
+  expect(side).toBe(64);
   await context.close();
 });

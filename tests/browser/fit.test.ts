@@ -131,7 +131,7 @@ describe('fit', () => {
     await page.getByLabel('Top of the head').selectOption('+Z');
     // Up and front cannot be the same axis.
     // A press says why, and the button beside it helps.
-    await page.getByRole('button', { name: 'Apply' }).click();
+    await page.getByRole('button', { name: 'Apply' }).click({ force: true });
     await page.getByText('need different axes').waitFor();
     await page.getByRole('button', { name: 'Choose another front' }).click();
     expect(await page.evaluate(() => document.activeElement?.id)).toBe('frame-front');

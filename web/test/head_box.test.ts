@@ -52,8 +52,10 @@ test('findHead_OfWhatDoesNotStand_FindsNone', () => {
 const pointsUpTo = (top: number, count: number): [number, number, number][] =>
   Array.from({ length: count }, (_, i) => [i % 2 === 0 ? -0.06 : 0.06, 1.54 + ((top - 1.54) * i) / (count - 1), 0.1]);
 
+const framed = (radius: number): { height: number; radius: number } => ({ height: 1.645, radius });
+
 test('headOfPoints_FigureWhoseOutlineShowsNoHead_IsAroundThePoints', () => {
-  const body = 0.88; // half of 1.76
+  const body = { height: 0.88, radius: 0.88 };
   const head = headOfPoints(pointsUpTo(1.75, 60), body)!;
   expect(head.min[1]).toBeCloseTo(1.54 - 0.15 * 0.21);
   expect(head.max[1]).toBeCloseTo(1.75 + 0.15 * 0.21);
@@ -63,13 +65,18 @@ test('headOfPoints_FigureWhoseOutlineShowsNoHead_IsAroundThePoints', () => {
 });
 
 test('headOfPoints_FramedHead_StaysAsItIs', () => {
-  expect(headOfPoints(pointsUpTo(1.75, 60), 0.12)).toBeNull();
-  expect(headOfPoints(pointsUpTo(1.66, 10), 0.12)).toBeNull();
+  expect(headOfPoints(pointsUpTo(1.75, 60), framed(0.12))).toBeNull();
+  expect(headOfPoints(pointsUpTo(1.66, 10), framed(0.12))).toBeNull();
   // A hat or long hair is a part of the picture.
-  expect(headOfPoints(pointsUpTo(1.75, 60), 0.17)).toBeNull();
+  expect(headOfPoints(pointsUpTo(1.75, 60), framed(0.17))).toBeNull();
 });
 
 test('headOfPoints_FewPointsOrAllInOnePlace_SayNothing', () => {
-  expect(headOfPoints(pointsUpTo(1.75, 7), 10)).toBeNull();
-  expect(headOfPoints(new Array<[number, number, number]>(60).fill([0, 1, 0]), 10)).toBeNull();
+  expect(headOfPoints(pointsUpTo(1.75, 7), framed(10))).toBeNull();
+  expect(headOfPoints(new Array<[number, number, number]>(60).fill([0, 1, 0]), framed(10))).toBeNull();
+});
+
+test('headOfPoints_ChinBelowThePicture_IsInIt', () => {
+  const head = headOfPoints(pointsUpTo(1.75, 60), { height: 1.7, radius: 0.1 })!;
+  expect(head.min[1]).toBeLessThan(1.54);
 });

@@ -87,14 +87,21 @@ const roomAround = { skull: 1.8, face: 3 };
 /** Room around the feature points, as a share of their height. */
 const aroundPoints = { skull: 0.15, face: 0.6 };
 
-/** The head by its feature points, where what is framed (half its size: `radius`) is much larger than a head around them; else null. */
-export function headOfPoints(points: readonly (readonly [number, number, number])[], radius: number): Box | null {
+/**
+ * The head by its feature points, where what is framed (its height, and half its size: `radius`) is much larger than a head around them
+ * or does not have them all in it; else null.
+ */
+export function headOfPoints(
+  points: readonly (readonly [number, number, number])[],
+  { height: middle, radius }: { height: number; radius: number },
+): Box | null {
   if (points.length < fewestPoints) return null;
   const box = boxOf([{ positions: points.flat(), triangles: [] }], -Infinity);
   const kind = points.length >= pointsOfSkull ? 'skull' : 'face';
   const height = box.max[1] - box.min[1];
   const half = Math.max(height, box.max[0] - box.min[0]) / 2;
-  if (!(half > 0) || radius <= half * roomAround[kind]) return null;
+  const isSeen = box.min[1] >= middle - radius && box.max[1] <= middle + radius;
+  if (!(half > 0) || (isSeen && radius <= half * roomAround[kind])) return null;
   for (let axis = 0; axis < 2; axis += 1) {
     box.min[axis] = box.min[axis]! - height * aroundPoints[kind];
     box.max[axis] = box.max[axis]! + height * aroundPoints[kind];

@@ -5,7 +5,6 @@ import {
   HemisphereLight,
   NeutralToneMapping,
   PCFShadowMap,
-  PMREMGenerator,
   PerspectiveCamera,
   Scene,
   SRGBColorSpace,
@@ -14,12 +13,12 @@ import {
   type Object3D,
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
-import { RoomEnvironment } from 'three/addons/environments/RoomEnvironment.js';
 import { fieldOfView, studioLight } from '@client/gpu/studio_look.ts';
 import { fewerPixels, Pace } from '@client/view/pace.ts';
 import { Flight } from './flight.ts';
 import type { Box } from './head_box.ts';
 import type { Quality } from './quality.ts';
+import { drawRoom } from './room.ts';
 
 export type ViewName = 'front' | 'left' | 'right' | 'three-quarter';
 
@@ -181,6 +180,11 @@ export class Stage {
     this.controls.maxDistance = reach * 14;
     this.placeLights();
     this.look('front', true);
+  }
+
+  /** What is framed: the height of its middle, and half its size, model units. */
+  get framed(): { height: number; radius: number } {
+    return { height: this.center.y, radius: this.radius };
   }
 
   /** From now on shows this part of the framed object as the head. */
@@ -371,12 +375,8 @@ export class Stage {
 
   /** Draws the surroundings that light the head, once per graphics context. */
   private drawEnvironment(): void {
-    const generator = new PMREMGenerator(this.renderer);
-    const room = new RoomEnvironment();
     this.scene.environment?.dispose();
-    this.scene.environment = generator.fromScene(room, 0.04, 0.1, 100, { size: this.quality.roomSize }).texture;
-    room.dispose();
-    generator.dispose();
+    this.scene.environment = drawRoom(this.renderer, this.quality.roomSize);
   }
 
   private placeLights(): void {

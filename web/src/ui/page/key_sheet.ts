@@ -71,14 +71,22 @@ function open(): void {
   if (document.querySelector('dialog[open]')) return;
   showDialog(
     t('Keys'),
-    sheet().map(({ place, keys }) => [
-      h('h3', {}, place),
-      h(
-        'dl',
-        { class: 'keys' },
-        keys.map(([key, action]) => [h('dt', {}, key), h('dd', {}, action)]),
+    h(
+      'div',
+      { class: 'key-places' },
+      sheet().map(({ place, keys }) =>
+        h(
+          'section',
+          {},
+          h('h3', {}, place),
+          h(
+            'dl',
+            { class: 'keys' },
+            keys.map(([key, action]) => [h('dt', {}, key), h('dd', {}, action)]),
+          ),
+        ),
       ),
-    ]),
+    ),
     h('button', { type: 'submit', class: 'primary' }, t('Close')),
   ).scrollTop = 0; // the button at its end has the focus
 }

@@ -92,7 +92,8 @@ export class Studio {
       this.select(model.id);
       await this.follow(model.id, job, t('Reading the file'));
       const finished = await this.reload(model.id);
-      if (finished?.state === 'failed' && finished.problem)
+      // The stage says it of the head that is on it.
+      if (finished?.state === 'failed' && finished.problem && this.selected.value?.id !== finished.id)
         this.toasts.problem(t('{name} could not be read', { name: file.name }), finished.problem);
     } catch (error) {
       if (!(error instanceof DOMException && error.name === 'AbortError'))

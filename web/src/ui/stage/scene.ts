@@ -334,7 +334,7 @@ export class SceneView {
 
   /** Goes to the head that the feature points tell, where the outline of the figure did not tell it. */
   frameByPoints(positions: readonly (readonly [number, number, number])[]): void {
-    const head = headOfPoints(positions, this.stage.headRadius);
+    const head = headOfPoints(positions, this.stage.framed);
     if (head) this.stage.frameHead(head);
   }
 
