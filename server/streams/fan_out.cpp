@@ -57,6 +57,7 @@ void FanOut::add(StreamPeer& client, http::WebSocketSink& sink, Coding coding, W
   subscriber.listens = wishes.sound;
   subscriber.reads = wishes.text;
   subscriber.away = wishes.text && is_text_;
+  subscriber.told = hush_ ? hush_->speech : 0;
   subscriber.waits = waits;
   if (wishes.sound) ++listeners_;
   if (wishes.text) ++readers_;
@@ -103,6 +104,7 @@ void FanOut::push_text(SpeechText text, Clock::time_point due, Clock::time_point
 void FanOut::end_text(std::optional<SpeechText> hush, Clock::time_point now) {
   is_text_ = false;
   said_.clear();
+  if (hush) hush_ = hush;
   if (readers_ == 0) return;
   if (hush) passes_.push_back({Kind::text, nullptr, *std::move(hush), {}, now, true});
   passes_.push_back({Kind::newest, nullptr, {}, {}, now, false});
@@ -125,6 +127,7 @@ void FanOut::set_reads(StreamPeer& client, bool reads, BatchLog& log) {
   readers_ = reads ? readers_ + 1 : readers_ - 1;
   if (reads) {
     subscriber.away = is_text_;
+    subscriber.told = hush_ ? hush_->speech : 0;
     send_texts(subscriber, Clock::now());
   } else if (subscriber.away) {
     subscriber.away = false;
@@ -133,19 +136,23 @@ void FanOut::set_reads(StreamPeer& client, bool reads, BatchLog& log) {
   }
 }
 
+bool FanOut::send_text(Subscriber& subscriber, const SpeechText& text) {
+  http::WireMessage message;
+  append_encoded(message.bytes, Message(text), subscriber.coding == Coding::packed, standard_quantizers());
+  const auto bytes = message.bytes.size();
+  const auto sent =
+      subscriber.sink->send(std::make_shared<const http::WireMessage>(std::move(message)), http::Purpose::state);
+  if (sent != http::Sent::handed) subscriber.waits = true;
+  if (sent != http::Sent::handed && sent != http::Sent::waits) return false;
+  subscriber.told = text.speech;
+  ++counts_.texts_sent;
+  counts_.text_bytes_sent += bytes;
+  return true;
+}
+
 void FanOut::send_texts(Subscriber& subscriber, Clock::time_point now) {
-  for (const auto& [text, until] : said_) {
-    if (until < now) continue;
-    http::WireMessage message;
-    append_encoded(message.bytes, Message(text), subscriber.coding == Coding::packed, standard_quantizers());
-    const auto bytes = message.bytes.size();
-    const auto sent =
-        subscriber.sink->send(std::make_shared<const http::WireMessage>(std::move(message)), http::Purpose::state);
-    if (sent != http::Sent::handed) subscriber.waits = true;
-    if (sent != http::Sent::handed && sent != http::Sent::waits) return;
-    ++counts_.texts_sent;
-    counts_.text_bytes_sent += bytes;
-  }
+  for (const auto& [text, until] : said_)
+    if (until >= now && !send_text(subscriber, text)) return;
 }
 
 const http::SharedWire& FanOut::message_wire(Pass& pass, Coding coding) {
@@ -168,6 +175,7 @@ const http::SharedWire* FanOut::next_wire(Slice& slice, Subscriber& subscriber, 
   }
   if (pass.kind == Kind::text) {
     if (!subscriber.reads || subscriber.behind) return nullptr;  // with the newest state come the texts
+    subscriber.told = std::get<SpeechText>(pass.message).speech;
     if (!wire) wire = message_wire(pass, subscriber.coding);
     return &wire;
   }
@@ -244,6 +252,7 @@ void FanOut::finish_slice(Slice& slice, BatchLog& log) {
       continue;
     }
     subscriber.behind = true;
+    subscriber.told = 0;  // what waited has been dropped
     // The socket may have become writable meanwhile; no other event would report that.
     if (subscriber.sink->idle()) send_newest(subscriber, log);
   }
@@ -280,6 +289,7 @@ void FanOut::writable(StreamPeer& client, BatchLog& log) {
 }
 
 void FanOut::send_newest(Subscriber& subscriber, BatchLog& log) {
+  if (subscriber.reads && hush_ && subscriber.told < hush_->speech && !send_text(subscriber, *hush_)) return;
   const auto& newest = log.join_point(subscriber.coding);
   const auto sent = subscriber.sink->send(newest, http::Purpose::state);
   if (sent == http::Sent::waits || sent == http::Sent::refused) subscriber.waits = true;

@@ -23,6 +23,7 @@ struct Subscriber {
   http::WebSocketSink* sink = nullptr;
   std::size_t* slot = nullptr;   ///< where its current index in the list is stored
   std::uint64_t next_batch = 0;  ///< number of the first batch it has not been sent
+  std::uint64_t told = 0;        ///< number of the newest text it has been sent, or need not be
   Coding coding = Coding::packed;
   bool listens = false;  ///< asked for the sound
   bool reads = false;    ///< has a voice of its own: gets text in place of the frames and the sound of speech
