@@ -139,7 +139,7 @@ TEST_F(Speeches, WhatIsWrongIsNamed) {
     expect_problem(say(body), 422, "invalid-field", "/text");
   }
   // What is not said is the text's fault, not the voice's.
-  for (const char* silent : {"\U0001F600", ":)", "[joy]:)[/joy] \n", "  "}) {
+  for (const char* silent : {"  ", "\n\t"}) {
     auto body = hello_;
     body["text"] = silent;
     expect_problem(say(body), 422, "invalid-field", "/text");
