@@ -1,5 +1,6 @@
 """A server: fetching a face package, and following a stream over a blocking WebSocket."""
 
+import json
 import os
 import time
 import urllib.error
@@ -13,6 +14,7 @@ from .stream import SUBPROTOCOL, EventType, Stream
 from .websocket import Closed, WebSocket, WebSocketError
 
 _largest_part = 256 << 20
+_largest_problem = 64 << 10
 
 
 def now():
@@ -22,6 +24,15 @@ def now():
 
 def _token(token):
     return os.environ.get("SEMBLANTE_TOKEN") if token is None else token
+
+
+def _words(error):
+    """What a problem document says, else what the status means."""
+    try:
+        detail = json.loads(error.read(_largest_problem))["detail"]
+    except (OSError, ValueError, LookupError, TypeError):
+        return error.msg
+    return detail if isinstance(detail, str) else error.msg
 
 
 def fetch_head(server, model, *, lod=None, max_vertices=None, token=None, ssl_context=None, timeout=30.0, **options):
@@ -37,8 +48,12 @@ def fetch_head(server, model, *, lod=None, max_vertices=None, token=None, ssl_co
         request = urllib.request.Request(f"{folder}/{name}{suffix}")
         if token:
             request.add_header("Authorization", f"Bearer {token}")
-        with urllib.request.urlopen(request, timeout=timeout, context=ssl_context) as answer:
-            content = answer.read(_largest_part + 1)
+        try:
+            with urllib.request.urlopen(request, timeout=timeout, context=ssl_context) as answer:
+                content = answer.read(_largest_part + 1)
+        except urllib.error.HTTPError as error:
+            error.msg = _words(error)
+            raise
         if len(content) > _largest_part:
             raise SemblanteError("too_large", name, f"is larger than {_largest_part} bytes")
         return content

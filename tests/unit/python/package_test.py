@@ -10,6 +10,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import urllib.error
 
 TOP = pathlib.Path(__file__).resolve().parents[3]
 BUILD = pathlib.Path(os.environ.get("SEMBLANTE_BUILD", TOP / "build"))
@@ -229,6 +230,10 @@ class Streams(unittest.TestCase):
                 break
         self.assertEqual(times, sorted(times))
         self.assertNotEqual(head.positions().tolist(), head.neutral.tolist())
+
+    def test_a_model_that_is_not_there_is_an_error_with_the_servers_words(self):
+        with self.assertRaisesRegex(urllib.error.HTTPError, "404: there is no model nobody"):
+            semblante.fetch_head(self.server.url, "nobody")
 
     def test_what_is_published_arrives(self):
         request = json.dumps({"name": "python"}).encode()
