@@ -289,7 +289,7 @@ void run_serve(const ServeOptions& options) {
   running = &server;
   const auto ports = server.listen();
   if (!ports) fail("serve", ports.error());
-  server.stop_on_signals();
+  server.stop_on_signals(!listening.tls);
   std::optional<CertificateFiles> certificate;
   if (listening.tls) {
     api.redirect_to_https(ports->front());

@@ -155,7 +155,9 @@ std::optional<http::Problem> RequestParser::problem_of(const ErrorCode& error, s
   if (error.category() != boost::beast::http::make_error_code(E::bad_value).category() || error == E::end_of_stream)
     return std::nullopt;
   if (error == E::header_limit) return header_too_large();
-  if (error == E::bad_version) return http::make_problem("http-version", "the request has an unsupported version");
+  if (error == E::bad_version)
+    return http::make_problem(
+        "http-version", "the version is neither HTTP/1.1 nor HTTP/1.0, or the target has a space that is not %20");
   if (error == E::buffer_overflow) {
     // If the line before a chunk is complete, the trailers are too long; that line may follow the line break of the
     // chunk before.

@@ -203,14 +203,18 @@ void Server::set_tls(std::shared_ptr<const TlsContext> context) {
   state_->tls = std::move(context);
 }
 
-void Server::stop_on_signals() {
+void Server::stop_on_signals(bool at_hangup) {
   state_->signals.add(SIGINT);
   state_->signals.add(SIGTERM);
+  struct sigaction hangup {};
+  ::sigaction(SIGHUP, nullptr, &hangup);
+  if (at_hangup && hangup.sa_handler != SIG_IGN) state_->signals.add(SIGHUP);
   state_->signals.async_wait([this](const boost::system::error_code& error, int) {
     if (error) return;
     boost::system::error_code ignored;
     state_->signals.clear(ignored);
     for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, end_at_once);
+    std::signal(SIGHUP, SIG_IGN);  // the terminal's shell may send another
     stop();
   });
 }

@@ -94,8 +94,9 @@ class Server {
   void run(const std::function<void()>& on_stopping);
   /// Any thread.
   void stop();
-  /// SIGINT and SIGTERM call stop() while run() runs; the second one ends the process at once.
-  void stop_on_signals();
+  /// SIGINT and SIGTERM call stop() while run() runs; the second one ends the process at once. With `at_hangup` SIGHUP,
+  /// which a closed terminal sends, calls stop() too, unless it is ignored, as nohup does.
+  void stop_on_signals(bool at_hangup);
   /// SIGHUP calls `reload` on a worker thread while run() runs.
   void reload_on_signal(std::function<void()> reload);
 

@@ -45,6 +45,19 @@ Received read_all(WebSocket& socket, std::chrono::milliseconds pause) {
   return got;
 }
 
+TEST(Drain, ClosedTerminal_StopsAsSigtermDoes) {
+  const TemporaryFolder data;
+  ServerProcess server(data.path());
+  ASSERT_EQ(request(server.port(), "POST", "/v1/streams", R"({"name":"talk"})", as_json).status, 201);
+  WebSocket socket(server.port(), "/v1/streams/talk", "semblante.v1.json");
+  socket.send_text(R"({"type":"hello","version":1,"role":"subscribe"})");
+  ASSERT_TRUE(socket.receive()) << "its header";
+  EXPECT_EQ(server.end(SIGHUP), 0);
+  const auto received = read_all(socket, 0ms);
+  EXPECT_EQ(received.end, "shutdown");
+  EXPECT_EQ(received.close_code, 1001);
+}
+
 TEST(Drain, UnderLoad_NoSubscriberMissesWhatWasAccepted_AndTheRecordingIsWhole) {
   const TemporaryFolder data;
   std::string recording;

@@ -246,6 +246,20 @@ TEST_F(ServerTest, TrailerThatGoesOnInAFurtherLine_IsRefused) {
   EXPECT_NE(client.read(length).find("a header field goes on in a further line"), std::string::npos);
 }
 
+TEST_F(ServerTest, TargetThatCannotBeRead_IsAnsweredWithWhatCanBeWrong) {
+  for (const auto& [target, words] : {std::pair{"/a b", "has a space that is not %20"},
+                                      {"/a?b=%zz", "a % without two hexadecimal digits"},
+                                      {"/a%2Fb", "an encoded slash"},
+                                      {"http://localhost/", "is not a path"}}) {
+    SCOPED_TRACE(target);
+    const Client client(port_);
+    client.send(get(target));
+    const auto head = client.read_head();
+    const auto length = std::stoul(head.substr(head.find("Content-Length: ") + 16));
+    EXPECT_NE(client.read(length).find(words), std::string::npos);
+  }
+}
+
 TEST_F(ServerTest, ControlCharacterInAChunkExtension_IsRefused) {
   // Some proxies end the line at the line feed, and see another body than the server.
   const std::string head = "GET /immediate HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n";
