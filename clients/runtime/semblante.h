@@ -606,7 +606,7 @@ semblante_result semblante_listener_push(semblante_listener* listener, const flo
 
 typedef struct semblante_speaker semblante_speaker;
 
-/* `seed`: of its blinks. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
+/* `seed`: of its blinks, nods and glances. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
 semblante_result semblante_speaker_create(uint32_t seed, semblante_speaker** speaker, semblante_error* error);
 void semblante_speaker_destroy(semblante_speaker* speaker);
 /* The voice begins at word number `first_word` (from 0; words are what is between spaces, tabs and ends of lines).
@@ -616,8 +616,8 @@ semblante_result semblante_speaker_say(semblante_speaker* speaker, const uint8_t
 /* Words that the score does not have, or before one that was reached, have no effect. */
 void semblante_speaker_reach(semblante_speaker* speaker, uint32_t word, double now);
 void semblante_speaker_end(semblante_speaker* speaker, double now);
-/* Sets viseme, expression and lids of the frame. Returns 0 and leaves it when nothing is said and the face has come to
- * rest, and for FAPs that are not finite. */
+/* Sets viseme, expression and lids of the frame, and adds nods, raised brows and glances to its head, brows and eyes.
+ * Returns 0 and leaves it when nothing is said and the face has come to rest, and for FAPs that are not finite. */
 uint32_t semblante_speaker_show(semblante_speaker* speaker, double now, semblante_frame* frame);
 
 #ifdef __cplusplus

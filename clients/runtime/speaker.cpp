@@ -13,7 +13,8 @@ constexpr double fade = 40.0;            ///< half the time between two visemes,
 constexpr double rest_ms = 160.0;        ///< until the mouth rests when the voice has ended
 /// A full expression comes in 300 ms and goes in 500, as cues of performances do.
 constexpr double full = 63.0, attack = full / 300.0, release = full / 500.0;
-constexpr double blink_closing = usual_ramps[4].ramps.attack, least_pause = 1500.0, most_pause = 5500.0;
+constexpr double blink_closing = usual_ramps[4].ramps.attack, least_pause = 1500.0, most_pause = 5500.0,
+                 least_between_blinks = 900.0;
 constexpr double least_speed = 0.5, most_speed = 2.0;
 
 constexpr SpeechScore::Step silence{};
@@ -40,6 +41,7 @@ void Speaker::say(SpeechScore score, std::size_t first, double now) {
   words_.clear();
   for (const Step& step : score.steps)
     if (step.begins_word) words_.push_back(step.begin);
+  life_.begin(score);
   score_ = std::move(score);
   position_ = first < words_.size() ? words_[first] : 0.0;
   next_word_ = std::min(first + 1, words_.size());
@@ -73,6 +75,7 @@ void Speaker::end(double now) {
   rest_ = mouth_at(position_);
   ended_ = now;
   score_.reset();
+  life_.end();
 }
 
 void Speaker::advance(double now) {
@@ -89,9 +92,12 @@ void Speaker::advance(double now) {
       else
         ++next_word_, waited_ = 0;
     }
-    position_ = std::min(to, static_cast<double>(score_->duration()));
+    const double before = std::exchange(position_, std::min(to, static_cast<double>(score_->duration())));
+    // People blink between phrases; not again so soon.
+    if (life_.phrase_ends(before, position_) && now - last_blink_ >= least_between_blinks) blink_ = now;
   }
   move_expressions(elapsed);
+  life_.move(position_, elapsed);
 }
 
 void Speaker::move_expressions(double elapsed) {
@@ -127,7 +133,7 @@ bool Speaker::show(double now, semblante_frame& frame) {
   advance(now);
   const bool shows = std::any_of(levels_.begin(), levels_.end(), [](double level) { return level >= 0.5; });
   const double rested = (now - ended_) / rest_ms;
-  if (!score_ && (!was_speaking_ || rested >= 1.0) && !shows) return false;
+  if (!score_ && (!was_speaking_ || rested >= 1.0) && !shows && life_.is_at_rest()) return false;
 
   Mouth mouth = rest_;
   if (score_) mouth = mouth_at(position_);
@@ -150,6 +156,7 @@ bool Speaker::show(double now, semblante_frame& frame) {
   frame.expression1 = static_cast<std::uint8_t>(frame.intensity1 > 0 ? first : 0);
   frame.intensity2 = level(second);
   frame.expression2 = static_cast<std::uint8_t>(frame.intensity2 > 0 ? second : 0);
+  life_.show(frame, 1.0 - std::max(levels_[first], levels_[second]) / full);
   blink(now, frame);
   return true;
 }
@@ -161,6 +168,7 @@ void Speaker::blink(double now, semblante_frame& frame) {
   }
   const double since = now - blink_;
   if (since < 0) return;
+  last_blink_ = blink_;
   const double closure =
       since < blink_closing ? since / blink_closing : (blink_ms - since) / (blink_ms - blink_closing);
   for (const std::size_t fap : {19U, 20U, 21U, 22U}) {

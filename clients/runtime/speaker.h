@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "clients/runtime/semblante.h"
+#include "clients/runtime/speaker_life.h"
 #include "core/types/split_mix.h"
 #include "protocol/cpp/speech_score.h"
 
@@ -21,15 +22,15 @@ class Speaker {
   /// the beginnings of some words only.
   static constexpr double patience = 400.0;
 
-  explicit Speaker(std::uint32_t seed) : random_(seed) {}
+  explicit Speaker(std::uint32_t seed) : random_(seed), life_(seed) {}
 
   /// The voice begins the text of this score, at its word number `first`.
   void say(SpeechScore score, std::size_t first, double now);
   void reach(std::size_t word, double now);
   /// It has said the text, or was silenced.
   void end(double now);
-  /// Writes mouth, expression and lids into a frame. False, and it is not changed, when nothing is said and all of it
-  /// has come to rest.
+  /// Writes mouth, expression and lids into a frame, and moves its head, brows and eyes. False, and it is not changed,
+  /// when nothing is said and all of it has come to rest.
   bool show(double now, semblante_frame& frame);
 
  private:
@@ -59,7 +60,9 @@ class Speaker {
   bool was_speaking_ = false;
   std::array<double, 7> levels_{};  ///< of each expression, 0..63
   SplitMix random_;
+  SpeakerLife life_;
   double blink_ = 0;  ///< when the newest blink began, or the next one begins
+  double last_blink_ = 0;
 };
 
 }  // namespace semblante::runtime

@@ -12,7 +12,7 @@ class Speaker(Owner):
     _destroy = library.semblante_speaker_destroy
 
     def __init__(self, seed=0):
-        """`seed`: of its blinks."""
+        """`seed`: of its blinks, nods and glances."""
         super().__init__(make(library.semblante_speaker_create, seed))
 
     def say(self, score, now, first_word=0):

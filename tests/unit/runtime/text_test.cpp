@@ -1,3 +1,9 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
 #include <gmock/gmock.h>
 
 #include "tests/unit/runtime/scripted_server.h"
@@ -211,9 +217,62 @@ TEST_F(SpeakerTest, Expression_ComesStaysAndGoesWithoutJumps) {
 TEST_F(SpeakerTest, Frame_KeepsWhatIsNotSpeech) {
   say(score, 1000);
   semblante_frame frame{};
-  frame.fap[48] = 5000;
+  frame.fap[12] = 50;
   ASSERT_EQ(semblante_speaker_show(speaker_, 1060, &frame), 1U);
-  EXPECT_EQ(frame.fap[48], 5000);
+  EXPECT_EQ(frame.fap[12], 50);
+}
+
+/// Two phrases of 2 s, each of words with a short vowel and one with a long one, and 400 ms of silence between them.
+Bytes two_phrases(bool joyful) {
+  Bytes bytes;
+  if (joyful) bytes = {0xF1, 63};
+  for (int phrase = 0; phrase < 2; ++phrase) {
+    for (int word = 0; word < 7; ++word)
+      for (const std::uint8_t byte : {0x49, word == 5 ? 0xA7 : 0xA2, 0x42}) bytes.push_back(byte);
+    for (int i = 0; i < 2 && phrase == 0; ++i) bytes.push_back(0x06);
+  }
+  return bytes;
+}
+
+/// The most that each FAP differs from 0 while a speaker says a score, and whether it moves smoothly and comes to rest.
+std::array<float, 69> most_of_life(std::uint32_t seed, const Bytes& bytes, std::vector<float>* heads = nullptr) {
+  std::array<float, 69> most{};
+  semblante_speaker* speaker = nullptr;
+  EXPECT_EQ(semblante_speaker_create(seed, &speaker, nullptr), SEMBLANTE_OK);
+  EXPECT_EQ(semblante_speaker_say(speaker, bytes.data(), bytes.size(), 0, 1000), SEMBLANTE_OK);
+  float head = 0, eyes = 0;
+  bool shown = true;
+  for (double ms = 1000; shown && ms < 9000; ms += 10) {
+    if (ms == 6000) semblante_speaker_end(speaker, ms);
+    semblante_frame frame{};
+    shown = semblante_speaker_show(speaker, ms, &frame) != 0;
+    for (std::size_t fap = 1; fap < most.size(); ++fap) most[fap] = std::max(most[fap], std::abs(frame.fap[fap]));
+    EXPECT_LT(std::abs(frame.fap[48] - head), 600) << "a third of a degree in 10 ms, at " << ms;
+    EXPECT_LT(std::abs(frame.fap[23] - eyes), 3000) << ms;
+    head = frame.fap[48];
+    eyes = frame.fap[23];
+    if (heads != nullptr) heads->push_back(head);
+  }
+  EXPECT_FALSE(shown) << "it comes to rest";
+  semblante_speaker_destroy(speaker);
+  return most;
+}
+
+TEST_F(SpeakerTest, Face_NodsRaisesItsBrowsLooksAsideAndBlinks_WithoutABitOfIt) {
+  std::vector<float> heads, again, others;
+  const auto most = most_of_life(1, two_phrases(false), &heads);
+  EXPECT_GT(most[48], 3000) << "a nod of two degrees";
+  EXPECT_LT(most[48], 7000);
+  for (std::size_t fap = 31; fap <= 36; ++fap) EXPECT_GT(most[fap], 50) << fap;
+  EXPECT_GT(most[23], 5000) << "a glance of four degrees";
+  EXPECT_EQ(most[23], most[24]);
+  EXPECT_GT(most[19], 900) << "a blink between phrases";
+  EXPECT_EQ(most[3], 0) << "the mouth is that of the score";
+  most_of_life(1, two_phrases(false), &again);
+  most_of_life(2, two_phrases(false), &others);
+  EXPECT_EQ(heads, again);
+  EXPECT_NE(heads, others);
+  EXPECT_LT(most_of_life(1, two_phrases(true))[31], 20) << "an expression has the brows";
 }
 
 TEST_F(SpeakerTest, Eyes_Blink) {
