@@ -143,7 +143,8 @@ std::string hear(const SaidRequest& request, Recording sound, Speech& speech) {
   speech.utterance = semblante::hear(std::move(sound));
   speech.sounds = sounds_of_visemes;
   speech.warnings.push_back(
-      "nobody gave the text: mouths are as they are heard in the sound, six of ten moments right, without captions" +
+      "nobody gave the text: mouths are as they are heard in the sound, six of ten moments right; there are no "
+      "captions" +
       reason);
   return {};
 }

@@ -97,7 +97,7 @@ TEST(Recognizer, OfAnotherLanguage_OrNotSure_OrOfTooMuchSound_IsNotUsed) {
     return speech && speech->text.empty() ? speech->warnings.at(0) : std::string("it is used");
   };
   EXPECT_TRUE(warning(heard_by(answering(R"(echo '{"error":"no","of":"language"}')"), silent_file(), "pt-BR"))
-                  .ends_with("without captions"));
+                  .ends_with("no captions"));
   EXPECT_NE(warning(heard_by(answering(R"(echo '{"heard":"a","confidence":0.1}')" + end), silent_file())).find("sure"),
             std::string::npos);
   EXPECT_NE(warning(heard_by(answering(R"(echo '{"heard":"","confidence":0}')" + end), silent_file())).find("sure"),
@@ -149,7 +149,7 @@ TEST(RecognizerPocketsphinx, HearsEnglishOfPeople) {
 TEST(RecognizerPocketsphinx, OtherLanguages_Noise_AndHostileSounds_LeaveTheMouthToTheSound) {
   const std::string file = recording("cards/003.wav");
   if (file.empty()) GTEST_SKIP() << "pocketsphinx-testdata and pocketsphinx-en-us are not installed";
-  EXPECT_TRUE(heard_by(pocketsphinx, file, "pt-BR")->warnings[0].ends_with("without captions"));
+  EXPECT_TRUE(heard_by(pocketsphinx, file, "pt-BR")->warnings[0].ends_with("no captions"));
   Utterance noise;
   noise.sample_rate = 8'000;
   std::uint32_t state = 1;
