@@ -1,9 +1,12 @@
 #include "core/propose/face_surface.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include <glm/geometric.hpp>
+
+#include "core/geometry/insert_vertices.h"
 
 namespace semblante {
 namespace {
@@ -12,10 +15,13 @@ namespace {
 constexpr double off_plane = 3.0;
 /// A vertex within this fraction of its edge length of the plane is on the plane.
 constexpr double on_plane = 0.35;
+/// A place nearer than this to another part may be taken for one of it.
+constexpr double other_part = 0.02;
 
 }  // namespace
 
-FaceSurface::FaceSurface(const Surface& surface, std::span<const Part> parts, const Similarity& frame)
+FaceSurface::FaceSurface(const Surface& surface, std::span<const Part> parts, const Similarity& frame,
+                         std::span<const Triangle> triangles)
     : surface_(surface), unit_(frame.scale) {
   places_.reserve(surface.vertex_count());
   for (const glm::dvec3& p : surface.positions) places_.push_back(frame(p));
@@ -23,6 +29,14 @@ FaceSurface::FaceSurface(const Surface& surface, std::span<const Part> parts, co
     if (surface.steps_from(SurfaceVertexId(v)).empty()) continue;
     by_role_[static_cast<std::size_t>(parts[surface.part_of[v].value()].role)].push_back(v);
   }
+  if (triangles.empty()) return;
+  for (const PartId part : surface.part_of) role_of_.push_back(parts[part.value()].role);
+  corners_.assign(places_.begin(), places_.end());
+  for (const Triangle& t : triangles) {
+    Triangle& mapped = triangles_.emplace_back();
+    std::transform(t.begin(), t.end(), mapped.begin(), [&](std::uint32_t v) { return surface.surface_of[v].value(); });
+  }
+  nearby_.emplace(corners_, triangles_);
 }
 
 const std::vector<std::uint32_t>& FaceSurface::with_role(PartRole role) const {
@@ -47,6 +61,23 @@ std::optional<std::uint32_t> FaceSurface::nearest(PartRole role, const glm::dvec
     best = v;
   }
   return best;
+}
+
+std::optional<glm::dvec3> FaceSurface::nearest_between(PartRole role, const glm::dvec3& place) const {
+  if (!nearby_) return std::nullopt;
+  const TriangleTree::Hit hit =
+      nearby_->nearest(place, [&](std::uint32_t triangle) { return role_of_[triangles_[triangle][0]] == role; });
+  if (!std::isfinite(hit.distance)) return std::nullopt;
+  const Triangle& t = triangles_[hit.triangle];
+  const glm::dvec3& a = places_[t[0]];
+  const glm::dvec3& b = places_[t[1]];
+  const glm::dvec3& c = places_[t[2]];
+  if (meant_corner(hit.weights, a, b, c)) return std::nullopt;
+  const glm::dvec3 shares = moved_to_edge(hit.weights);
+  const glm::dvec3 between = shares.x * a + shares.y * b + shares.z * c;
+  const TriangleTree::Hit other =
+      nearby_->nearest(between, [&](std::uint32_t triangle) { return role_of_[triangles_[triangle][0]] != role; });
+  return other.distance < other_part ? std::nullopt : std::optional(between);
 }
 
 std::uint32_t FaceSurface::climb(std::uint32_t start, const glm::dvec3& direction, double within,

@@ -11,6 +11,7 @@
 
 #include "core/geometry/similarity.h"
 #include "core/geometry/surface.h"
+#include "core/geometry/triangle_tree.h"
 #include "core/propose/mirror_plane.h"
 #include "core/types/rig.h"
 
@@ -20,8 +21,10 @@ namespace semblante {
 /// vertices.
 class FaceSurface {
  public:
-  /// `frame` maps positions of `surface` to this frame. Keeps a reference to `surface`.
-  FaceSurface(const Surface& surface, std::span<const Part> parts, const Similarity& frame);
+  /// `frame` maps positions of `surface` to this frame. `triangles`: of file vertices, may be empty. Keeps a reference
+  /// to `surface`.
+  FaceSurface(const Surface& surface, std::span<const Part> parts, const Similarity& frame,
+              std::span<const Triangle> triangles = {});
 
   [[nodiscard]] const Surface& surface() const { return surface_; }
   [[nodiscard]] const glm::dvec3& at(std::uint32_t vertex) const { return places_[vertex]; }
@@ -33,6 +36,9 @@ class FaceSurface {
   /// vertices that pass the filter, if given.
   [[nodiscard]] std::optional<std::uint32_t> nearest(PartRole role, const glm::dvec3& place,
                                                      const MirrorPlane* on = nullptr, const Filter& filter = {}) const;
+  /// The place on the triangles of the role that is nearest to `place`, where a point would get a vertex of its own;
+  /// empty where it means a vertex (insert_vertices.h), where another part is as near, and without triangles.
+  [[nodiscard]] std::optional<glm::dvec3> nearest_between(PartRole role, const glm::dvec3& place) const;
   /// Hill climbing: the farthest vertex along `direction` reachable from `start` by ascending edges, at most `within`
   /// away; with a plane, along vertices on it. Tolerates ripples of one edge length.
   [[nodiscard]] std::uint32_t climb(std::uint32_t start, const glm::dvec3& direction, double within,
@@ -51,7 +57,11 @@ class FaceSurface {
   const Surface& surface_;
   std::vector<glm::dvec3> places_;
   std::array<std::vector<std::uint32_t>, part_role_names.size()> by_role_;
-  double unit_;  ///< lengths of this frame per length of the surface's own
+  std::vector<PartRole> role_of_;       ///< #S
+  std::vector<glm::vec3> corners_;      ///< #S, `places_` for the tree
+  std::vector<Triangle> triangles_;     ///< into `corners_`
+  std::optional<TriangleTree> nearby_;  ///< of `triangles_`, if there are any
+  double unit_;                         ///< lengths of this frame per length of the surface's own
 };
 
 }  // namespace semblante

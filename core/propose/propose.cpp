@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <unordered_set>
 
 #include <glm/geometric.hpp>
@@ -104,12 +105,13 @@ struct Spot {
 class Proposer {
  public:
   Proposer(const Surface& surface, std::span<const Part> parts, const Similarity& frame, const FeaturePointSet& known,
-           std::span<const ReferenceHead> references, const std::optional<SkinJoint>& head_joint)
+           std::span<const ReferenceHead> references, const std::optional<SkinJoint>& head_joint,
+           std::span<const Triangle> triangles)
       : surface_(surface),
         parts_(parts),
         frame_(frame),
         known_(known),
-        face_(surface, parts, frame),
+        face_(surface, parts, frame, triangles),
         references_(references) {
     if (head_joint) head_joint_ = frame(glm::dvec3(head_joint->position));
     for (const FeaturePoint& point : known) {
@@ -187,10 +189,15 @@ class Proposer {
       }
     }
     const std::optional<RimVertex> nearest = nearest_vertex(id, role, place, error);
+    if (const auto between = place_between(id, role, place, error, nearest)) {
+      return settle(id, {*between, std::nullopt}, images_[id] ? ProposalMethod::mirror : ProposalMethod::proportion,
+                    std::max(error, 0.5 * glm::distance(*between, place)));
+    }
     if (!nearest) return refuse(id, "every vertex of the " + name_of(role) + " already has a point");
     const auto& [vertex, doubt] = *nearest;
     const double off = glm::distance(face_.at(vertex), place);
-    if (!is_near(vertex, place, error)) return refuse(id, "the model has no surface at the expected position");
+    if (!is_near(face_.at(vertex), place, error))
+      return refuse(id, "the model has no surface at the expected position");
     settle(id, {face_.at(vertex), vertex}, images_[id] ? ProposalMethod::mirror : ProposalMethod::proportion,
            std::max(error, 0.5 * off), doubt);
   }
@@ -214,9 +221,31 @@ class Proposer {
     }
   }
 
-  /// Whether a vertex may be the point expected at `place`.
-  [[nodiscard]] bool is_near(std::uint32_t vertex, const glm::dvec3& place, double error) const {
-    return glm::distance(face_.at(vertex), place) <= 0.15 + error;
+  /// Whether a place of the surface may be the point expected at `place`.
+  static bool is_near(const glm::dvec3& of_surface, const glm::dvec3& place, double error) {
+    return glm::distance(of_surface, place) <= 0.15 + error;
+  }
+
+  /// On a coarse mesh: a place between vertices that is clearly nearer to the expected one than `nearest`, the vertex
+  /// to choose otherwise. It keeps the order of the points on a face and does not come near another point. Only for
+  /// mirror images, which are certain, or if no vertex is near, because each vertex that the head gets is seen in its
+  /// shading; and not for lips and lids, because only vertices have a side.
+  [[nodiscard]] std::optional<glm::dvec3> place_between(std::size_t id, PartRole role, const glm::dvec3& place,
+                                                        double error, const std::optional<RimVertex>& nearest) const {
+    constexpr double of_a_vertex = 0.05;
+    constexpr double apart = 0.03;
+    if (rim_of_point(id_of(id)).opening != nullptr) return std::nullopt;
+    const double off =
+        nearest ? glm::distance(face_.at(nearest->vertex), place) : std::numeric_limits<double>::infinity();
+    if (off < of_a_vertex) return std::nullopt;
+    if (!images_[id] && nearest && is_near(face_.at(nearest->vertex), place, error)) return std::nullopt;
+    const auto between = face_.nearest_between(role, place);
+    if (!between || !is_near(*between, place, error) || glm::distance(*between, place) > 0.5 * off) return std::nullopt;
+    if (!order_bounds(id_of(id), settled_).contains(*between)) return std::nullopt;
+    const bool is_free = std::none_of(settled_.begin(), settled_.end(), [&](const std::optional<glm::dvec3>& other) {
+      return other && glm::distance(*other, *between) < apart;
+    });
+    return is_free ? between : std::nullopt;
   }
 
   /// Considers only vertices without a point: the parametrization needs a vertex of its own for each point. Prefers
@@ -234,7 +263,7 @@ class Proposer {
     // that leaves nothing near the place is that of a misplaced point, which the doctor names.
     const OrderBounds bounds = order_bounds(id_of(id), settled_);
     const auto in_order = nearest([&](std::uint32_t v) { return is_free(v) && bounds.contains(face_.at(v)); });
-    if (in_order && is_near(in_order->vertex, place, error)) return in_order;
+    if (in_order && is_near(face_.at(in_order->vertex), place, error)) return in_order;
     auto out_of_order = nearest(is_free);
     if (out_of_order && out_of_order->doubt.empty())
       out_of_order->doubt = "no free vertex near here keeps the order in which the points stand on a face";
@@ -336,7 +365,7 @@ std::optional<Error> find_too_few_known(const FeaturePointSet& known) {
 
 Result<Proposals> propose_feature_points(const Surface& surface, std::span<const Part> parts,
                                          const FeaturePointSet& known, std::span<const ReferenceHead> references,
-                                         const NeckJoints& joints) {
+                                         const NeckJoints& joints, std::span<const Triangle> triangles) {
   if (std::optional<Error> fault = find_too_few_known(known)) return std::move(*fault);
   Places places;
   for (const FeaturePoint& point : known) places[point.id.value()] = glm::dvec3(point.position);
@@ -348,7 +377,8 @@ Result<Proposals> propose_feature_points(const Surface& surface, std::span<const
             missing_of_quick_set(known)};
   }
   frame->rotation = to_quarter_turns(frame->rotation);
-  return Proposer(surface, parts, *frame, known, references, plausible_joints(joints, parts, known).head).run();
+  return Proposer(surface, parts, *frame, known, references, plausible_joints(joints, parts, known).head, triangles)
+      .run();
 }
 
 }  // namespace semblante

@@ -60,12 +60,14 @@ std::optional<Error> find_too_few_known(const FeaturePointSet& known);
 /// Proposes the feature points that are missing in `known`. Known points are not changed. Deterministic, and
 /// independent of the order of the points and of the model's unit. `references`: the proportions of other heads.
 /// `joints`: of the model's skeleton; 7.1 is proposed at that of the head, if it can be this head's
-/// (plausible_joints()).
+/// (plausible_joints()). `triangles`: of the model. On a coarse mesh a point is proposed between vertices, as a
+/// position without a vertex, where they show that the surface is nearer to it than any free vertex; without them
+/// never.
 ///
 /// Errors: `missing` for too few known points, or points too close together to determine the pose of the head.
 Result<Proposals> propose_feature_points(const Surface& surface, std::span<const Part> parts,
                                          const FeaturePointSet& known,
                                          std::span<const ReferenceHead> references = reference_heads(),
-                                         const NeckJoints& joints = {});
+                                         const NeckJoints& joints = {}, std::span<const Triangle> triangles = {});
 
 }  // namespace semblante

@@ -61,8 +61,8 @@ void run(const ProposeCommand& options) {
   std::erase_if(files.points.points, [](const MarkedPoint& point) { return point.proposed; });
   const MarkedHead head = place_points(std::move(files), options.head);
   const auto parts = describe_parts(head.model, head.surface, head.points);
-  const auto proposals =
-      propose_feature_points(head.surface, parts, head.points, reference_heads(), head.model.neck_joints);
+  const auto proposals = propose_feature_points(head.surface, parts, head.points, reference_heads(),
+                                                head.model.neck_joints, head.model.triangles);
   if (!proposals) fail(options.head.feature_points_path, proposals.error());
   const Json json = document(head, *proposals);
   write_file(options.out, [&json](std::ostream& out) { out << json.dump(1) << "\n"; });

@@ -49,8 +49,8 @@ Result<ProposeJob::Outcome> ProposeJob::run(const Request& request, const InputF
   if (!head) return head.error();
   if (auto told = report_progress(progress, 0.8, "proposals"); !told) return told.error();
   const auto parts = describe_parts(head->model, head->surface, head->points, head->roles_by_user);
-  const auto proposals =
-      propose_feature_points(head->surface, parts, head->points, reference_heads(), head->model.neck_joints);
+  const auto proposals = propose_feature_points(head->surface, parts, head->points, reference_heads(),
+                                                head->model.neck_joints, head->model.triangles);
   if (!proposals) return proposals.error();
 
   Outcome outcome;

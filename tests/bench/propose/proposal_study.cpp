@@ -113,7 +113,8 @@ FeaturePointSet some_points(const ProposalStudy& study, const std::vector<std::s
 
 std::vector<ProposalError> errors_from(const ProposalStudy& study, const std::vector<std::string_view>& names) {
   const FeaturePointSet known = some_points(study, names);
-  const auto proposals = propose_feature_points(study.surface, study.parts_from(known), known, study.other_heads);
+  const auto proposals = propose_feature_points(study.surface, study.parts_from(known), known, study.other_heads, {},
+                                                study.model.triangles);
   if (!proposals) throw std::runtime_error(study.name + ": " + proposals.error().message);
   std::vector<ProposalError> errors;
   for (const Proposal& proposal : proposals->points) {

@@ -17,6 +17,7 @@
 #include "core/anatomy/part_roles.h"
 #include "core/anatomy/point_lookup.h"
 #include "core/doctor/examine.h"
+#include "core/geometry/insert_vertices.h"
 #include "core/parametrize/parametrize.h"
 #include "core/parametrize/place_feature_points.h"
 #include "core/propose/quick_set.h"
@@ -102,9 +103,12 @@ void expect_good_health(const std::string& name, const Model& model, const Surfa
   }
 }
 
-void expect_accepted(const std::string& name, const Model& model, const FeaturePointSet& known) {
+/// `in_between` grows by the number of points that are proposed between vertices.
+void expect_accepted(const std::string& name, const Model& model, const FeaturePointSet& known,
+                     std::size_t* in_between = nullptr) {
   const Surface surface = build_surface(model);
-  const auto proposals = propose_feature_points(surface, describe_parts(model, surface, known), known);
+  const auto proposals = propose_feature_points(surface, describe_parts(model, surface, known), known,
+                                                reference_heads(), {}, model.triangles);
   ASSERT_TRUE(proposals) << name << ": " << proposals.error().message;
   std::vector<MarkedPoint> marked;
   std::set<std::uint32_t> taken;
@@ -124,11 +128,26 @@ void expect_accepted(const std::string& name, const Model& model, const FeatureP
   for (const NotProposed& p : proposals->not_proposed)
     EXPECT_EQ(p.reason.find("already"), std::string::npos) << name << " " << to_string(p.id) << ": " << p.reason;
   std::vector<std::string> warnings;
-  const auto placed = place_feature_points(model, surface, marked, &warnings);
+  auto placed = place_feature_points(model, surface, marked, &warnings);
   ASSERT_TRUE(placed) << name << ": " << placed.error().message;
   EXPECT_TRUE(warnings.empty()) << name << ": " << warnings.front();
   EXPECT_EQ(placed->size(), marked.size()) << name;
-  expect_good_health(name, model, surface, known, *proposals, *placed);
+  // Those between vertices get one each.
+  Model whole = model;
+  std::vector<TrianglePlace> between;
+  for (const FeaturePoint& p : *placed) {
+    if (p.between) between.push_back(*p.between);
+  }
+  if (in_between != nullptr) *in_between += between.size();
+  const Insertion insertion = insert_vertices(whole, surface, between);
+  auto vertex = insertion.vertex_of_place.begin();
+  for (FeaturePoint& p : *placed) {
+    if (!p.between) continue;
+    EXPECT_TRUE(taken.insert(*vertex).second) << name << ": " << to_string(p.id) << " means the vertex of another";
+    p = {p.id, VertexId(*vertex), whole.positions[*vertex]};
+    ++vertex;
+  }
+  expect_good_health(name, whole, build_surface(whole), known, *proposals, *placed);
 }
 
 std::vector<ProposalStudy> all_heads() {
@@ -140,6 +159,7 @@ std::vector<ProposalStudy> all_heads() {
 }
 
 TEST(AcceptedProposals, OfAllHeadsAtSeveralLevelsOfDetail) {
+  std::size_t in_between = 0;
   for (const ProposalStudy& study : all_heads()) {
     const FeaturePointSet known = some_points(study, {quick_set.begin(), quick_set.end()});
     expect_accepted(study.name, study.model, known);
@@ -155,9 +175,10 @@ TEST(AcceptedProposals, OfAllHeadsAtSeveralLevelsOfDetail) {
       }
       const auto placed = place_feature_points(coarse, surface, marked, nullptr);
       ASSERT_TRUE(placed) << study.name << ": " << placed.error().message;
-      expect_accepted(study.name + ", cells of " + std::to_string(cell) + " ES0", coarse, *placed);
+      expect_accepted(study.name + ", cells of " + std::to_string(cell) + " ES0", coarse, *placed, &in_between);
     }
   }
+  EXPECT_GT(in_between, 0U);
 }
 
 struct Version {
