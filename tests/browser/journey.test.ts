@@ -127,6 +127,8 @@ describe('from a bare avatar to a talking face and a recording', () => {
         performer.kernel.deform(performer.poseNumber);
         return performer.kernel.positions.some((value, i) => Math.abs(value - neutral[i]!) > 1e-4);
       }, await neutralOf(studio));
+      // It is heard, and what is heard is the clock of the face.
+      await page.waitForFunction(() => !Number.isNaN((window as unknown as { semblante: { scene: { clock: () => number } } }).semblante.scene.clock()));
       await studio.keep(`journey-${name}-stream`);
       await hand.press(button('Show the recording'));
       await page.locator('.recordings .recording').first().waitFor();
