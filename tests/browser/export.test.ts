@@ -98,7 +98,7 @@ describe('export', () => {
     const { name, bytes } = await saved(page, async () => {
       await video.click();
       await page.getByRole('button', { name: 'Stop and save' }).waitFor();
-      await page.getByLabel('Text to say').fill('Hello there.');
+      await page.getByRole('textbox', { name: 'Text to say' }).fill('Hello there.');
       await page.getByRole('button', { name: 'Speak', exact: true }).click();
     });
     expect(name).toBe('Sample head.webm');

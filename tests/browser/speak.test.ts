@@ -73,8 +73,8 @@ test('Speak_Text_IsHeardSeenAndFollowed_AndTheMouthClosesAtAP', async () => {
     Object.assign(window, { speakSound: audio });
     audio.defaultPlaybackRate = audio.playbackRate = 0.0625;
   });
-  await page.getByLabel('Text to say').fill('apa upa');
-  await page.getByRole('button', { name: 'Speak' }).click();
+  await page.getByRole('textbox', { name: 'Text to say' }).fill('apa upa');
+  await page.getByRole('button', { name: 'Speak', exact: true }).click();
   await page.locator('.driver').getByText('Speaking').waitFor();
   await page.locator('.said-word.now').first().waitFor();
   expect(await page.locator('.said-words').textContent()).toBe('apa upa');
@@ -119,8 +119,8 @@ test('Speak_LongText_BeginsWithItsFirstSentence_AndGoesOnToItsEnd', async () => 
   });
   const first = 'uma primeira frase que dura o bastante para si.';
   const text = `${first} ${'e outra que vem depois. '.repeat(12)}`;
-  await page.getByLabel('Text to say').fill(text);
-  await page.getByLabel('Text to say').press('Enter');
+  await page.getByRole('textbox', { name: 'Text to say' }).fill(text);
+  await page.getByRole('textbox', { name: 'Text to say' }).press('Enter');
   // The words of the whole are shown as soon as it is made; the voice goes on in it.
   await page.locator('.said-words').getByText('depois').first().waitFor();
   await page.waitForFunction(() => {
@@ -139,17 +139,17 @@ test('Speak_LongText_BeginsWithItsFirstSentence_AndGoesOnToItsEnd', async () => 
 test('Speak_Voices_AreThoseOfTheLanguage', async () => {
   studio = await open(server.url);
   const { page } = studio;
-  await page.locator('.speak').getByLabel('Language').selectOption('en');
-  const voice = page.locator('.speak').getByLabel('Voice');
+  await page.getByRole('tabpanel', { name: 'Animate' }).getByLabel('Language').selectOption('en');
+  const voice = page.getByRole('tabpanel', { name: 'Animate' }).getByLabel('Voice');
   await voice.getByRole('option', { name: 'Tones' }).waitFor({ state: 'attached' });
   await voice.selectOption('beeps');
-  await page.getByLabel('Text to say').fill('oh');
+  await page.getByRole('textbox', { name: 'Text to say' }).fill('oh');
   const [request] = await Promise.all([
     page.waitForRequest((one) => one.method() === 'POST' && one.url().endsWith('/v1/speeches')),
-    page.getByRole('button', { name: 'Speak' }).click(),
+    page.getByRole('button', { name: 'Speak', exact: true }).click(),
   ]);
   expect(request.postDataJSON()).toMatchObject({ voice: 'beeps', language: 'en' });
-  await page.locator('.speak').getByLabel('Language').selectOption('pt-BR');
+  await page.getByRole('tabpanel', { name: 'Animate' }).getByLabel('Language').selectOption('pt-BR');
   expect(await voice.getByRole('option').count()).toBe(1);
   expect(studio.errors).toEqual([]);
 });
@@ -158,8 +158,8 @@ test('Speak_NextText_LeavesOneSpeechOnTheServer', async () => {
   studio = await open(server.url);
   const { page } = studio;
   for (const text of ['mama', 'papa']) {
-    await page.getByLabel('Text to say').fill(text);
-    await page.getByLabel('Text to say').press('Enter');
+    await page.getByRole('textbox', { name: 'Text to say' }).fill(text);
+    await page.getByRole('textbox', { name: 'Text to say' }).press('Enter');
     await page.locator('.said-words').getByText(text).waitFor();
   }
   await page.waitForFunction(async () => {
@@ -172,7 +172,7 @@ test('Speak_NextText_LeavesOneSpeechOnTheServer', async () => {
 test('Speak_ServerWithoutAVoice_SaysWhatIsMissing', async () => {
   studio = await open(mute.url, { allowed: /501/ });
   const { page } = studio;
-  await page.getByRole('button', { name: 'Speak' }).click();
+  await page.getByRole('button', { name: 'Speak', exact: true }).click();
   await page.getByRole('alert').getByText('no voice is installed').waitFor();
   expect(studio.errors).toEqual([]);
 });

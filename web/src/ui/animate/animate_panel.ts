@@ -95,17 +95,19 @@ export class AnimatePanel {
       h('button', { type: 'button', class: 'quiet', title: hint, on: { click: action } }, icon(name, 16), title);
     const take = h('div', { class: 'row wrap quick-acts', role: 'toolbar', 'aria-label': t('Take this face along') }, ...options.exports);
     rove(take, 'button');
+    const whole = h(
+      'div',
+      { class: 'row wrap quick-acts', role: 'toolbar', 'aria-label': t('Whole face') },
+      act(t('Blink'), 'blink', t('Close the eyes for a moment'), () => this.blink()),
+      act(t('Mirror'), 'mirror', t('Exchange left and right'), () => this.mirror()),
+      h('span', { class: 'grow' }),
+      this.resetAll,
+    );
+    rove(whole, 'button');
     this.element = h(
       'div',
       { class: 'panel animate' },
-      h(
-        'div',
-        { class: 'row wrap quick-acts', role: 'group', 'aria-label': t('Whole face') },
-        act(t('Blink'), 'blink', t('Close the eyes for a moment'), () => this.blink()),
-        act(t('Mirror'), 'mirror', t('Exchange left and right'), () => this.mirror()),
-        h('span', { class: 'grow' }),
-        this.resetAll,
-      ),
+      whole,
       take,
       h(
         'section',
