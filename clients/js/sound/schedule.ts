@@ -5,7 +5,7 @@ const lead = 15;
 /** ms; a packet that comes later than this is left out, as its face is over */
 const latest = 500;
 /** ms; media times are whole, so packets without a gap may seem to have one of this size */
-const rounding = 2;
+export const rounding = 2;
 /** The sound is heard slower or faster by at most this share, which is not noticed in speech. */
 const mostStretch = 0.01;
 /** ms in which an error is corrected, within that share */

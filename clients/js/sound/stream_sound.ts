@@ -1,6 +1,6 @@
 import type { PlayoutStats } from '../player.ts';
 import type { SoundPacket, StreamClient } from '../stream_client.ts';
-import { SoundSchedule } from './schedule.ts';
+import { rounding, SoundSchedule } from './schedule.ts';
 
 /** Packets that may wait for the decoder: more than a second of sound. */
 const mostWaiting = 24;
@@ -17,6 +17,8 @@ export class StreamSound {
   private schedule = new SoundSchedule();
   private context: AudioContext | null = null;
   private decoder: AudioDecoder | null = null;
+  /** Media time at which what the decoder was given ends. */
+  private given = NaN;
   /** What is played and is to be played. */
   private readonly nodes = new Set<AudioBufferSourceNode>();
   private epoch = NaN;
@@ -78,12 +80,24 @@ export class StreamSound {
     this.nodes.clear();
   }
 
-  private decode({ mediaTime, packet }: SoundPacket): void {
+  private decode({ mediaTime, duration, packet }: SoundPacket): void {
     const sound = this.client.header?.sound;
     if (!this.isOn || sound?.codec !== 'opus') return;
+    // The times of what a decoder gives go on through a gap as if there were none (Chromium counts samples from its first packet).
+    if (!(Math.abs(mediaTime - this.given) <= rounding)) this.endPhrase();
     const decoder = this.decoderOf(sound.rate, sound.channels);
     if (decoder.decodeQueueSize >= mostWaiting) return;
+    this.given = mediaTime + duration;
     decoder.decode(new EncodedAudioChunk({ type: 'key', timestamp: mediaTime * 1000, data: packet }));
+  }
+
+  /** The next packet gets another decoder; this one still gives what it has. */
+  private endPhrase(): void {
+    const { decoder } = this;
+    this.decoder = null;
+    if (decoder?.state !== 'configured') return;
+    const close = (): void => void (decoder.state !== 'closed' && decoder.close());
+    decoder.flush().then(close, close);
   }
 
   private decoderOf(sampleRate: number, numberOfChannels: number): AudioDecoder {

@@ -136,10 +136,15 @@ class Decoder {
   configure(): void {
     this.state = 'configured';
   }
+  private first = NaN;
+  private samples = 0;
   decode({ timestamp, data }: { timestamp: number; data: Uint8Array }): void {
     decoding = timestamp / 1000;
+    if (Number.isNaN(this.first)) this.first = timestamp;
+    const counted = this.first + this.samples / 0.048; // as Chromium does
+    this.samples += opusPacketMs(data)! * 48;
     this.given.output({
-      timestamp,
+      timestamp: counted,
       numberOfFrames: opusPacketMs(data)! * 48,
       numberOfChannels: 1,
       sampleRate: 48_000,
@@ -147,6 +152,7 @@ class Decoder {
       close: () => undefined,
     });
   }
+  flush = async (): Promise<void> => undefined;
   close(): void {
     this.state = 'closed';
   }
