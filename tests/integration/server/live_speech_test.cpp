@@ -72,9 +72,10 @@ struct Heard {
 
 class LiveSpeech : public ::testing::Test {
  protected:
+  explicit LiveSpeech(std::string voice = troubled_voice) : voice_(std::move(voice)) {}
   void SetUp() override {
-    server_ = std::make_unique<ServerProcess>(folder_.path() / "data",
-                                              std::vector<std::string>{"--voice-program", troubled_voice});
+    server_ =
+        std::make_unique<ServerProcess>(folder_.path() / "data", std::vector<std::string>{"--voice-program", voice_});
     ASSERT_EQ(ask("POST", "/v1/streams", R"({"name":"talk","batch_interval":0})").status, 201);
     listener_ = std::make_unique<WebSocket>(server_->port(), "/v1/streams/talk", "semblante.v1.json");
     listener_->send_text(R"({"type":"hello","version":1,"sound":true})");
@@ -112,6 +113,7 @@ class LiveSpeech : public ::testing::Test {
     listen([] { return false; });
   }
 
+  const std::string voice_;
   TemporaryFolder folder_;
   std::unique_ptr<ServerProcess> server_;
   std::unique_ptr<WebSocket> listener_;
@@ -271,6 +273,56 @@ TEST_F(LiveSpeech, StoredSpeech_BeginsBeforeItsSoundIsCoded) {
   EXPECT_EQ(json_of(answer)["complete"], false) << "200 s of sound take a second or two to code";
   listen([&] { return heard_.sound_ms() > 4000.0; });
 }
+
+#ifdef SEMBLANTE_VOICE_ESPEAK
+class LiveSpeechOfEspeak : public LiveSpeech {
+ protected:
+  LiveSpeechOfEspeak() : LiveSpeech(SEMBLANTE_VOICE_ESPEAK) {}
+};
+
+TEST_F(LiveSpeechOfEspeak, IsHeardBeforeTheWholeIsMade_AndEndsWhenItIsStopped) {
+  std::string text;
+  for (int i = 0; i < 150; ++i) text += "A sentence that is said while the next one is being made. ";
+  const auto answer = say(text);
+  ASSERT_EQ(answer.status, 202) << answer.body;
+  listen([&] { return !heard_.sound.empty(); });
+  EXPECT_EQ(stream()["playing"]["complete"], false) << "eight minutes of sound take seconds to code";
+  listen([&] { return heard_.sound_ms() > 1000.0; });
+  const auto playback = answer.headers.at("location");
+  ASSERT_EQ(ask("DELETE", playback).status, 204);
+  const auto now = heard_.sound.back().media_time;
+  EXPECT_EQ(ask("GET", playback).status, 404);
+  listen_to_the_end();
+  EXPECT_LT(heard_.sound.back().media_time - now, 30'000U) << "of minutes";
+}
+
+TEST_F(LiveSpeechOfEspeak, ReaderWhoReadsNothing_LearnsAfterwardsThatTheSpeechWasStopped) {
+  WebSocket reader(server_->port(), "/v1/streams/talk", "semblante.v1.json", {}, 4096);
+  reader.send_text(R"({"type":"hello","version":1,"text":true})");
+  ASSERT_TRUE(reader.receive());
+  const auto answer = say(first + first + first);
+  ASSERT_EQ(answer.status, 202) << answer.body;
+  listen([&] { return heard_.sound_ms() > 500.0; });
+  ASSERT_EQ(ask("DELETE", answer.headers.at("location")).status, 204);
+  ASSERT_EQ(ask("DELETE", "/v1/streams/talk").status, 204);
+  std::vector<SpeechText> texts;
+  bool shown = false;  // frames after the last text
+  while (const auto text = reader.receive()) {
+    const auto message = decode_json(*text);
+    ASSERT_TRUE(message) << *text;
+    if (const auto* one = std::get_if<SpeechText>(&*message)) {
+      texts.push_back(*one);
+      shown = false;
+    }
+    shown = shown || std::holds_alternative<Keyframe>(*message);
+    if (std::holds_alternative<End>(*message)) break;
+  }
+  ASSERT_GE(texts.size(), 2U);
+  EXPECT_EQ(texts.front().text, first.substr(0, first.size() - 1));
+  EXPECT_EQ(texts.back().text, "");
+  EXPECT_TRUE(shown);
+}
+#endif
 
 }  // namespace
 }  // namespace semblante::test
