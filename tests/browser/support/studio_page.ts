@@ -131,9 +131,9 @@ export class StudioPage {
     await devtools.detach();
   }
 
-  /** The picture of the stage only. */
+  /** The picture of the stage only, without the messages over it, which come and go. */
   async picture(): Promise<Buffer> {
-    return this.page.locator('canvas.canvas').screenshot();
+    return this.page.locator('canvas.canvas').screenshot({ style: '.toasts { visibility: hidden; }' });
   }
 
   /** The picture of the stage after it has stopped changing. */
