@@ -59,8 +59,34 @@ interface Recordings {
 }
 
 /** The positions of the face at rest. */
-const neutralOf = (studio: StudioPage): Promise<number[]> =>
-  studio.page.evaluate(() => [...(window as unknown as { semblante: { scene: { face: { mesh: { positions: Float32Array } } } } }).semblante.scene.face.mesh.positions]);
+/** Until a stream has moved the face, and what is heard was the clock of the face. */
+const seenAndHeard = (studio: StudioPage): Promise<void> =>
+  studio.page.evaluate(
+    () =>
+      new Promise<void>((done) => {
+        const { driver, scene } = (window as unknown as Watched).semblante;
+        const neutral = scene.face.mesh.positions.slice();
+        let isSeen = false;
+        let isHeard = false;
+        const look = (): void => {
+          if (driver.source.value === 'stream') {
+            const { kernel, poseNumber } = scene.performer.value!;
+            kernel.deform(poseNumber);
+            isSeen ||= kernel.positions.some((value, i) => Math.abs(value - neutral[i]!) > 1e-4);
+            isHeard ||= !Number.isNaN(scene.clock());
+          }
+          if (isSeen && isHeard) done();
+          else setTimeout(look, 50);
+        };
+        look();
+      }),
+  );
+interface Watched {
+  semblante: {
+    driver: Inside['semblante']['driver'];
+    scene: Inside['semblante']['scene'] & { face: { mesh: { positions: Float32Array } }; clock(): number };
+  };
+}
 
 describe('from a bare avatar to a talking face and a recording', () => {
   for (const { name, options, makeHand } of ways) {
@@ -118,17 +144,12 @@ describe('from a bare avatar to a talking face and a recording', () => {
       expect(statSync(await video.path()).size).toBeGreaterThan(10_000);
 
       // 5. A stream says it too: it is followed at once, and a recording of it is kept.
+      const followed = seenAndHeard(studio); // from before the press on: the speech takes seconds
       await hand.press(button('Speak into a stream'));
       await page.waitForFunction(() => (window as unknown as Inside).semblante.driver.source.value === 'stream');
       const stream = await page.evaluate(() => (window as unknown as Inside).semblante.live.following.value!);
       const model = await page.evaluate(() => (window as unknown as Inside).semblante.studio.selected.value!.id);
-      await page.waitForFunction((neutral) => {
-        const performer = (window as unknown as Inside).semblante.scene.performer.value!;
-        performer.kernel.deform(performer.poseNumber);
-        return performer.kernel.positions.some((value, i) => Math.abs(value - neutral[i]!) > 1e-4);
-      }, await neutralOf(studio));
-      // It is heard, and what is heard is the clock of the face.
-      await page.waitForFunction(() => !Number.isNaN((window as unknown as { semblante: { scene: { clock: () => number } } }).semblante.scene.clock()));
+      await followed;
       await studio.keep(`journey-${name}-stream`);
       await hand.press(button('Show the recording'));
       await page.locator('.recordings .recording').first().waitFor();

@@ -133,7 +133,12 @@ export class StudioPage {
 
   /** The picture of the stage only, without the messages over it, which come and go. */
   async picture(): Promise<Buffer> {
-    return this.page.locator('canvas.canvas').screenshot({ style: '.toasts { visibility: hidden; }' });
+    const show = (visibility: string): Promise<void> =>
+      this.page.evaluate((value) => document.querySelector<HTMLElement>('.toasts')?.style.setProperty('visibility', value), visibility);
+    await show('hidden');
+    const picture = await this.page.locator('canvas.canvas').screenshot();
+    await show('visible');
+    return picture;
   }
 
   /** The picture of the stage after it has stopped changing. */
