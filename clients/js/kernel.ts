@@ -25,7 +25,7 @@ import {
 } from './generated/layouts.ts';
 import type { Runtime } from './runtime.ts';
 
-// Numbers of floats in structs that have nothing else, or up to their first other member.
+// How many floats a struct holds. Of the rig: those before its first pointer after them.
 const floatBytes = 4;
 const rigFloats = (rigLayout.companion - rigLayout.fapu) / floatBytes;
 const lidFloats = lidsLayout.bytes / floatBytes;

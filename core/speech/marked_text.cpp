@@ -94,7 +94,7 @@ class Reader {
     // A smiley is about its sentence to the end, whether or not it stands there.
     for (const Pending& pending : pending_) end_at(pending, sentence_end(pending.sentence));
     // Where nothing is said, as of "😀", the emotions are of the face alone.
-    if (!std::all_of(marked_.text.begin(), marked_.text.end(), is_space))
+    if (!says_nothing(marked_.text))
       std::erase_if(marked_.emotions, [](const EmotionSpan& span) { return span.range.count == 0; });
     return std::move(marked_);
   }
@@ -104,7 +104,7 @@ class Reader {
       if (auto fault = step()) return *std::move(fault);
     TextParts parts{std::string(text_.substr(0, at_)), {}};
     const std::string_view rest = text_.substr(at_);
-    if (std::all_of(rest.begin(), rest.end(), is_space)) return TextParts{std::string(text_), {}};
+    if (says_nothing(rest)) return TextParts{std::string(text_), {}};
     for (const Open& open : open_) parts.rest += open.source;
     parts.rest += rest;
     for (auto open = open_.rbegin(); open != open_.rend(); ++open) parts.first += open->closing;
@@ -280,6 +280,8 @@ std::vector<std::string> emotion_names() {
   for (std::size_t i = 1; i < mpeg4::expressions.size(); ++i) names.emplace_back(mpeg4::expressions[i].name);
   return names;
 }
+
+bool says_nothing(std::string_view text) { return std::all_of(text.begin(), text.end(), is_space); }
 
 Result<MarkedText> read_marked_text(std::string_view text) {
   if (auto fault = not_utf8(text)) return *std::move(fault);

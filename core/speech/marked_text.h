@@ -35,6 +35,9 @@ std::vector<std::string> emotion_names();
 /// is not UTF-8. Of a text without words the emotions have no range, and are kept.
 Result<MarkedText> read_marked_text(std::string_view text);
 
+/// Whether a text without its marks has nothing to say: spaces alone.
+bool says_nothing(std::string_view text);
+
 /// A text in two, both with their marks; spans that go on are closed in the first and opened again in the rest.
 struct TextParts {
   std::string first;

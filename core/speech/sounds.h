@@ -49,7 +49,7 @@ bool has_sound_table(std::string_view language);
 enum class LanguageQuality : std::uint8_t {
   measured,  ///< a table of its own, and measured on heads against the sound
   table,     ///< a relative of one of these, read by its table
-  english    ///< read by the chart of IPA; the name is of before, when it was the table of English
+  english    ///< read by the chart of IPA; clients know it by this name, since English was read then
 };
 inline constexpr std::array<std::string_view, 3> language_quality_names = {"measured", "table", "english"};
 LanguageQuality quality_of(std::string_view language);

@@ -89,7 +89,7 @@ voice::SpeechRequest speech_request(const JsonBody& body) {
       refuse("invalid-field", marked.error().message, "/text");
   } else if (const auto marked = read_marked_text(request.voice.text); !marked) {
     refuse("invalid-field", marked.error().message, "/text");
-  } else if (marked->text.find_first_not_of(" \t\n") == std::string::npos && marked->emotions.empty()) {
+  } else if (says_nothing(marked->text) && marked->emotions.empty()) {
     refuse("invalid-field", "there is nothing to say, and no emotion to show", "/text");
   }
   return request;

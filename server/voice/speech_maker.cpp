@@ -96,8 +96,7 @@ Result<Spoken> spoken(const VoiceProgram& program, const SpeechRequest& request,
     wish.text = said.marked.text;
   }
   add_whole(said.marked, request.expression, request.intensity);
-  const bool has_words = wish.text.find_first_not_of(" \t\n") != std::string::npos;
-  if (!has_words && !said.marked.emotions.empty()) {
+  if (says_nothing(wish.text) && !said.marked.emotions.empty()) {
     said.utterance = silent_face();
     return said;
   }
@@ -111,7 +110,7 @@ Result<Spoken> spoken(const VoiceProgram& program, const SpeechRequest& request,
 /// Nothing is left to say in it but marks.
 bool is_blank(const std::string& text) {
   const auto marked = read_marked_text(text);
-  return marked && marked->text.find_first_not_of(" \t\n") == std::string::npos;
+  return marked && says_nothing(marked->text);
 }
 
 /// Makes the utterance of a sound whose text nobody gave; the text, as far as it is heard.

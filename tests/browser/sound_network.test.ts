@@ -1,14 +1,13 @@
 // A stream that talks, heard and seen by clients in a real browser behind a network that jitters and breaks; one joins late.
 // SEMBLANTE_SOUND_SECONDS: how long; then the goal of 40 ms at p99 is asserted too, which wants a machine that does nothing
 // else. SEMBLANTE_SOUND_NETWORK: another one, in the words of semblante-test-proxy.
-import { spawn, type ChildProcess } from 'node:child_process';
 import { copyFileSync, mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { createInterface } from 'node:readline';
 import { build } from 'esbuild';
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, beforeAll, expect, test } from 'vitest';
+import { BadNetwork } from './support/network.ts';
 import { buildDir, root } from './support/paths.ts';
 import { eventually, patience } from './support/patience.ts';
 import { startServer, type RunningServer } from './support/server.ts';
@@ -55,7 +54,7 @@ globalThis.AudioDecoder = class extends Decoder {
       decoded = { mediaTime: given.shift(), duration: (data.numberOfFrames / data.sampleRate) * 1000 };
       output(data);
     } });
-    this.given = given; // in order: for each packet one piece of sound
+    this.given = given; // media times of packets, in order: the decoder gives one piece of sound for each
   }
   decode(chunk) {
     this.given.push(chunk.timestamp / 1000);
@@ -112,8 +111,7 @@ export async function watch() {
 
 let server: RunningServer;
 let browser: Browser;
-let network: ChildProcess;
-let address: string;
+let network: BadNetwork;
 let pages: string;
 
 beforeAll(async () => {
@@ -125,19 +123,11 @@ beforeAll(async () => {
     startServer({ demo: false, pages, voice: join(root, 'server/voice/examples/beeps.py') }),
     launch(['--autoplay-policy=no-user-gesture-required']),
   ]);
-  network = spawn(join(buildDir, 'bin/semblante-test-proxy'), [new URL(server.url).port, ...kind], {
-    stdio: ['pipe', 'pipe', 'inherit'],
-  });
-  const port = await new Promise<string>((resolve, reject) => {
-    createInterface({ input: network.stdout! }).once('line', resolve);
-    network.once('error', reject);
-    network.once('exit', (code) => reject(new Error(`the proxy ended with exit code ${code}`)));
-  });
-  address = `http://127.0.0.1:${port}`;
+  network = await BadNetwork.before(server, kind);
 });
 afterAll(async () => {
   await browser?.close();
-  network?.kill();
+  network?.close();
   await server?.stop();
   rmSync(pages, { recursive: true, force: true });
 });
@@ -148,7 +138,7 @@ const ask = (method: string, path: string, body: object): Promise<Response> =>
 async function open(): Promise<Page> {
   const page = await browser.newPage();
   page.setDefaultTimeout(patience);
-  await page.goto(`${address}/talk.html`);
+  await page.goto(`${network.address}/talk.html`);
   await page.evaluate(() => (window as unknown as { talk: { watch(): Promise<void> } }).talk.watch());
   return page;
 }
@@ -168,7 +158,7 @@ test('SoundAndFace_StayTogether_ThroughJitterStallsALostConnectionAndALateJoin',
     const first = await open();
     const enough = (page: Page, share: number) => eventually('enough was heard', async () => (await watched(page)).heard > 1000 * seconds * share);
     await enough(first, 1 / 3);
-    network.stdin!.write('cut\n');
+    network.tell('cut');
     await enough(first, 2 / 3);
     const second = await open();
     await Promise.all([enough(first, 1), enough(second, 1 / 3)]);

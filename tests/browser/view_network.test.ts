@@ -1,25 +1,21 @@
-import { spawn, type ChildProcess } from 'node:child_process';
-import { join } from 'node:path';
-import { createInterface } from 'node:readline';
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 import { shownFace, untilFace, type ShownFace } from './support/face_page.ts';
-import { buildDir } from './support/paths.ts';
+import { BadNetwork } from './support/network.ts';
 import { eventually, patience } from './support/patience.ts';
 import { startServer, type RunningServer } from './support/server.ts';
 import { launch } from './support/studio_page.ts';
 
 let server: RunningServer;
 let browser: Browser;
-let network: ChildProcess;
-let address: string;
+let network: BadNetwork;
 
 /** The page of the demo, by a network that can be cut. `mark` tells afterwards whether the page was loaded anew. */
 async function open(): Promise<Page> {
   const context = await browser.newContext({ viewport: { width: 390, height: 844 } });
   context.setDefaultTimeout(patience);
   const page = await context.newPage();
-  await page.goto(`${address}/view/demo`, { waitUntil: 'domcontentloaded', timeout: patience });
+  await page.goto(`${network.address}/view/demo`, { waitUntil: 'domcontentloaded', timeout: patience });
   await untilFace(page, 'playing');
   await page.evaluate(() => Object.assign(window, { mark: true }));
   return page;
@@ -28,29 +24,21 @@ const sameAsBefore = (page: Page): Promise<boolean> => page.evaluate(() => 'mark
 
 beforeAll(async () => {
   [server, browser] = await Promise.all([startServer(), launch()]);
-  network = spawn(join(buildDir, 'bin/semblante-test-proxy'), [new URL(server.url).port, 'delay=20'], {
-    stdio: ['pipe', 'pipe', 'inherit'],
-  });
-  const port = await new Promise<string>((resolve, reject) => {
-    createInterface({ input: network.stdout! }).once('line', resolve);
-    network.once('error', reject);
-    network.once('exit', (code) => reject(new Error(`the proxy ended with exit code ${code}`)));
-  });
-  address = `http://127.0.0.1:${port}`;
+  network = await BadNetwork.before(server, ['delay=20']);
 });
 afterAll(async () => {
   await browser?.close();
-  network?.kill();
+  network?.close();
   await server?.stop();
 });
 
 describe('the page of a stream on a bad network', () => {
   test('NetworkGone_IsSaid_AndTheFaceComesBackByItself', async () => {
     const page = await open();
-    network.stdin!.write('refuse\ncut\n');
+    network.tell('refuse', 'cut');
     await untilFace(page, 'stalled');
     expect((await shownFace(page)).message).toContain('Trying again');
-    network.stdin!.write('accept\n');
+    network.tell('accept');
     await untilFace(page, 'playing');
     expect(await sameAsBefore(page)).toBe(true);
     await page.context().close();
@@ -81,11 +69,11 @@ describe('the page of a stream on a bad network', () => {
         return navigator.serviceWorker.controller !== null && needed.every((end) => paths.some((path) => path.endsWith(end)));
       }),
     );
-    network.stdin!.write('refuse\ncut\n');
+    network.tell('refuse', 'cut');
     await page.reload({ waitUntil: 'domcontentloaded', timeout: patience });
     await page.waitForFunction(() => ((window as unknown as { semblanteFace?: ShownFace }).semblanteFace?.stats.vertices ?? 0) > 0);
     expect((await shownFace(page)).state).not.toBe('error');
-    network.stdin!.write('accept\n');
+    network.tell('accept');
     await untilFace(page, 'playing');
     await page.context().close();
   });

@@ -2,9 +2,9 @@ import { describe, expect, test } from 'vitest';
 import { ApiError } from '../src/net/problem.ts';
 import type { AbsentFap, FapPlaying, Playing, PlayOptions, Problem, StreamInfo } from '../src/net/types.ts';
 import { FaceDriver } from '../src/ui/stage/face_driver.ts';
-import { LiveModel } from '../src/ui/live/live_model.ts';
 import { PerformanceModel } from '../src/ui/live/performance_model.ts';
 import type { Studio } from '../src/ui/shared/studio.ts';
+import { FakeLive } from './support/fake_live.ts';
 import { neutralFrame } from '@client/index.ts';
 
 const stream = (id: string, more: Partial<StreamInfo> = {}): StreamInfo => ({
@@ -77,15 +77,6 @@ class FakeServer {
     this.streams = this.streams.map((one) => (one.id === id ? { ...one, playing: null } : one));
     return Promise.resolve();
   };
-}
-
-/** LiveModel as it is, but for the socket. */
-class FakeLive extends LiveModel {
-  override subscribe(id: string): void {
-    this.following.set(id);
-    this.status.set({ kind: 'open' });
-    this.driver.byStream();
-  }
 }
 
 async function setUp(streams: StreamInfo[]) {

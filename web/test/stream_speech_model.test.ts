@@ -3,9 +3,9 @@ import { neutralFrame } from '@client/index.ts';
 import { ApiError } from '../src/net/problem.ts';
 import type { Playing, Recording, StreamInfo, StreamSpeech } from '../src/net/types.ts';
 import { FaceDriver } from '../src/ui/stage/face_driver.ts';
-import { LiveModel } from '../src/ui/live/live_model.ts';
 import { StreamSpeechModel } from '../src/ui/speak/stream_speech_model.ts';
 import type { Studio } from '../src/ui/shared/studio.ts';
+import { FakeLive } from './support/fake_live.ts';
 
 /** A server with one stream; what was asked of it is written down. */
 class FakeServer {
@@ -41,15 +41,6 @@ class FakeServer {
     this.asked.push(`forget ${id}`);
     return Promise.resolve();
   };
-}
-
-/** LiveModel as it is, but for the socket. */
-class FakeLive extends LiveModel {
-  override subscribe(id: string): void {
-    this.following.set(id);
-    this.status.set({ kind: 'open' });
-    this.driver.byStream();
-  }
 }
 
 let server: FakeServer;

@@ -75,6 +75,16 @@ void read_members(const std::string& declaration, const Constants& constants, st
 
 }  // namespace
 
+std::string camel_case_name(const CStruct& record) {
+  std::string name;
+  bool begins = true;
+  for (const char c : record.name.substr(std::string("semblante_").size())) {
+    if (c != '_') name += begins ? static_cast<char>(c - 'a' + 'A') : c;
+    begins = c == '_';
+  }
+  return name;
+}
+
 std::vector<CStruct> read_c_structs(const std::string& header, const std::string& more) {
   Constants constants = constants_of(more);
   constants.merge(constants_of(header));

@@ -19,6 +19,9 @@ struct CStruct {
   std::vector<CMember> members;
 };
 
+/// "semblante_timed_frame" -> "TimedFrame".
+std::string camel_case_name(const CStruct& record);
+
 /// Reads the definitions `typedef struct NAME { ... } NAME;` of a header, in their order. Lengths of arrays may be sums
 /// and products of whole numbers and of names that the header or `more` defines as such. It knows the C of our own
 /// headers and no more: throws std::runtime_error with the place for anything else.

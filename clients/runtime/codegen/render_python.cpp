@@ -10,17 +10,6 @@ namespace {
 /// Of a line, as the package's own code has it.
 constexpr std::size_t widest_line = 120;
 
-/// "semblante_timed_frame" -> "TimedFrame".
-std::string class_name(const std::string& c_name) {
-  std::string name;
-  bool begins = true;
-  for (const char c : c_name.substr(std::string("semblante_").size())) {
-    if (c != '_') name += begins ? static_cast<char>(c - 'a' + 'A') : c;
-    begins = c == '_';
-  }
-  return name;
-}
-
 std::string python_type(const CMember& member, const std::map<std::string, std::string>& classes) {
   static const std::map<std::string, std::string> plain = {
       {"char", "c_char"},       {"uint8_t", "c_uint8"}, {"uint32_t", "c_uint32"}, {"size_t", "c_size_t"},
@@ -75,7 +64,7 @@ std::string render_structs(const std::vector<CStruct>& structs) {
       "        super().__init__(size=ctypes.sizeof(type(self)), **members)\n";
   std::map<std::string, std::string> classes;
   for (const CStruct& record : structs) {
-    const std::string name = class_name(record.name);
+    const std::string name = camel_case_name(record);
     const bool sized = !record.members.empty() && record.members.front().name == "size";
     out += "\n\nclass " + name + (sized ? "(Sized):\n" : "(ctypes.Structure):\n");
     if (!record.doc.empty()) out += wrapped("\"\"\"" + record.doc + "\"\"\"", "    ") + "\n\n";

@@ -15,15 +15,9 @@ struct Extent {
 int padded(int size, int alignment) { return (size + alignment - 1) / alignment * alignment; }
 
 /// "semblante_timed_frame" -> "timedFrameLayout".
-std::string layout_name(const std::string& c_name) {
-  std::string name;
-  for (std::size_t at = std::string("semblante_").size(); at < c_name.size(); ++at) {
-    if (c_name[at] == '_') {
-      name += static_cast<char>(c_name[++at] - 'a' + 'A');
-    } else {
-      name += c_name[at];
-    }
-  }
+std::string layout_name(const CStruct& record) {
+  std::string name = camel_case_name(record);
+  name[0] = static_cast<char>(name[0] - 'A' + 'a');
   return name + "Layout";
 }
 
@@ -39,7 +33,7 @@ std::string render_layouts(const std::vector<CStruct>& structs) {
       "// headers, not this. Offsets of members in bytes, with the 4-byte pointers of WebAssembly. `bytes`: the whole "
       "struct.\n";
   for (const CStruct& record : structs) {
-    out += "\nexport const " + layout_name(record.name) + " = {\n";
+    out += "\nexport const " + layout_name(record) + " = {\n";
     Extent whole;
     for (const CMember& member : record.members) {
       const auto found = extents.find(member.type);

@@ -13,6 +13,7 @@
 
 #include "server/jobs/isolation.h"
 #include "server/voice/espeak/phoneme_trace.h"
+#include "server/voice/program.h"
 #include "server/voice/voice_protocol.h"
 
 namespace semblante::voice {
@@ -21,14 +22,6 @@ namespace {
 constexpr int usual_words_per_minute = 160;
 constexpr int usual_pitch = 50;
 constexpr std::size_t samples_a_line = 16'384;
-
-void say(const std::string& line) { std::cout.write(line.data(), static_cast<std::streamsize>(line.size())); }
-
-int refuse(const std::string& message, std::string_view member = "") {
-  say(error_line(message, member));
-  std::cout.flush();
-  return 2;
-}
 
 /// What the callback of libespeak-ng, which has no argument of ours, works with.
 struct Speaking {
@@ -139,9 +132,7 @@ int list_voices(int rate) {
     for (const char* const variant : variants)
       say(line_of(VoiceName{name.voice + "+" + variant, name.label + ", " + variant, name.language}));
   }
-  say(end_line());
-  std::cout.flush();
-  return std::cout ? 0 : 1;
+  return finish_answer();
 }
 
 int run() {
@@ -179,19 +170,10 @@ int run() {
       espeak_Synth(request->text.c_str(), request->text.size() + 1, 0, POS_CHARACTER, 0, flags, nullptr, nullptr);
   if (speaking.too_long) return refuse("the sound is longer than " + std::to_string(int(max_seconds)) + " s", "text");
   if (code != EE_OK || speaking.broken) return refuse("espeak-ng failed with code " + std::to_string(code));
-  say(end_line());
-  std::cout.flush();
-  return std::cout ? 0 : 1;
+  return finish_answer();
 }
 
 }  // namespace
 }  // namespace semblante::voice
 
-int main() {
-  try {
-    return semblante::voice::run();
-  } catch (const std::exception& fault) {
-    std::cerr << fault.what() << "\n";
-    return 1;
-  }
-}
+int main() { return semblante::voice::run_program(semblante::voice::run); }

@@ -13,6 +13,7 @@
 #include "core/speech/alignment.h"
 #include "server/jobs/isolation.h"
 #include "server/voice/pocketsphinx/recognizer.h"
+#include "server/voice/program.h"
 #include "server/voice/voice_protocol.h"
 
 namespace semblante::voice {
@@ -20,14 +21,6 @@ namespace {
 
 constexpr double short_piece_ms = 4'000.0, long_piece_ms = 10'000.0, longest_piece_ms = 25'000.0;
 constexpr double long_pause_ms = 400.0;
-
-void say(const std::string& line) { std::cout.write(line.data(), static_cast<std::streamsize>(line.size())); }
-
-int refuse(const std::string& message, std::string_view member = "") {
-  say(error_line(message, member));
-  std::cout.flush();
-  return 2;
-}
 
 /// Where the sound is cut into pieces, ms: in long pauses, in any pause once a piece is long, and at last anywhere.
 std::vector<double> pieces_of(const Recording& sound) {
@@ -122,19 +115,10 @@ int run() {
   say(header_line("pocketsphinx", Recognizer::sample_rate));
   say(heard_line(text, said > 0.0 ? sure / said : 0.0));
   say(events);
-  say(end_line());
-  std::cout.flush();
-  return std::cout ? 0 : 1;
+  return finish_answer();
 }
 
 }  // namespace
 }  // namespace semblante::voice
 
-int main() {
-  try {
-    return semblante::voice::run();
-  } catch (const std::exception& fault) {
-    std::cerr << fault.what() << "\n";
-    return 1;
-  }
-}
+int main() { return semblante::voice::run_program(semblante::voice::run); }

@@ -14,6 +14,7 @@
 #include <sys/resource.h>
 
 #include "server/jobs/isolation.h"
+#include "server/voice/program.h"
 #include "server/voice/voice_protocol.h"
 
 namespace semblante::voice {
@@ -21,12 +22,6 @@ namespace {
 
 constexpr int most_channels = 8, least_rate = 1'000, most_rate = 384'000;
 constexpr std::size_t block = 16'384;  // samples of a line
-
-int refuse(const std::string& message) {
-  const std::string line = error_line(message);
-  std::cout.write(line.data(), static_cast<std::streamsize>(line.size())).flush();
-  return 2;
-}
 
 /// The file in memory, for libsndfile.
 struct Bytes {
@@ -73,7 +68,7 @@ class Writer {
       }
       written_ += here;
       const std::string line = audio_line(line_);
-      std::cout.write(line.data(), static_cast<std::streamsize>(line.size()));
+      say(line);
     }
   }
   bool too_long = false;
@@ -109,7 +104,7 @@ int run() {
   if (!converter) return refuse(src_strerror(fault));
 
   const std::string header = header_line("semblante-sound", rate);
-  std::cout.write(header.data(), static_cast<std::streamsize>(header.size()));
+  say(header);
   const auto channels = static_cast<std::size_t>(info.channels);
   std::vector<float> frames(block * channels), mixed(block);
   std::vector<float> converted(static_cast<std::size_t>(std::ceil(ratio * block)) + 16);
@@ -144,19 +139,10 @@ int run() {
       return refuse("the sound is longer than " + std::to_string(static_cast<int>(max_seconds)) + " s");
     if (!std::cout) return 1;
   }
-  const std::string end = end_line();
-  std::cout.write(end.data(), static_cast<std::streamsize>(end.size())).flush();
-  return std::cout ? 0 : 1;
+  return finish_answer();
 }
 
 }  // namespace
 }  // namespace semblante::voice
 
-int main() {
-  try {
-    return semblante::voice::run();
-  } catch (const std::exception& fault) {
-    std::cerr << fault.what() << "\n";
-    return 1;
-  }
-}
+int main() { return semblante::voice::run_program(semblante::voice::run); }

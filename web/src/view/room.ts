@@ -7,8 +7,8 @@ const near = 0.1;
 const far = 100;
 
 /**
- * three.js filters no cube map below 256 pixels, with 256 samples for each of them: four seconds without a graphics card, before the first
- * picture. A lamp and a box are told apart by 64.
+ * three.js makes an environment map at least 256 pixels wide and takes 256 samples for each pixel: without a graphics card the first
+ * picture waits four seconds for it. 64 pixels are enough to tell a lamp from a box.
  */
 class SmallPmremGenerator extends PMREMGenerator {
   /** Overrides a method of three.js that its types do not know. */
