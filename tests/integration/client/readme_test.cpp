@@ -52,6 +52,7 @@ TEST(Readme, FirstHead_IsAsPrinted) {
   EXPECT_EQ(printed.find("/problems/"), std::string::npos) << printed;
   EXPECT_NE(printed.find("event: done"), std::string::npos) << printed;
   EXPECT_NE(printed.find("\"accepted\":1"), std::string::npos) << printed;
+  EXPECT_NE(printed.find("\"name\":\"speech\""), std::string::npos) << printed;
   for (const char* name : {"mesh.drc", "weights", "rig.json", "frames/frame-00002.png"})
     EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
 }
