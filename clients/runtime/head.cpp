@@ -10,8 +10,9 @@ namespace semblante::runtime {
 const semblante_pose& EvaluatedPoses::of(const semblante_rig& rig, const semblante_frame& frame) {
   Entry* oldest = &entries_[0];
   for (Entry& entry : entries_) {
+    // A frame that differs in its padding or the sign of a zero alone is evaluated again, which is right too.
     if (entry.number != 0 && entry.viseme_share == rig.viseme_share &&
-        std::memcmp(&entry.frame, &frame, sizeof(frame)) == 0) {
+        std::memcmp(&entry.frame, &frame, sizeof(frame)) == 0) {  // NOLINT(bugprone-suspicious-memory-comparison)
       entry.used = ++uses_;
       return entry.pose;
     }

@@ -13,7 +13,7 @@ namespace semblante::runtime {
 namespace {
 
 /// Triangles that a package may have, given the greatest number of its vertices.
-constexpr std::size_t max_triangles = 3 * max_weights_vertices;
+constexpr std::size_t max_triangles = std::size_t{3} * max_weights_vertices;
 
 /// The mesh of a package in the caller's memory, or decoded from its bytes.
 struct Mesh {

@@ -1,6 +1,7 @@
 #include "clients/runtime/speaker.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/performance/usual_times.h"
@@ -142,7 +143,7 @@ bool Speaker::show(double now, semblante_frame& frame) {
     mouth = {mouth.share >= 0.5 ? mouth.first : mouth.second, silence.viseme, std::clamp(1.0 - rested, 0.0, 1.0)};
   frame.viseme1 = mouth.first;
   frame.viseme2 = mouth.second;
-  frame.viseme_blend = static_cast<std::uint8_t>(std::clamp(mouth.share, 0.0, 1.0) * full + 0.5);
+  frame.viseme_blend = static_cast<std::uint8_t>(std::lround(std::clamp(mouth.share, 0.0, 1.0) * full));
 
   std::size_t first = 1, second = 2;
   for (std::size_t i = 2; i < levels_.size(); ++i) {
@@ -151,7 +152,7 @@ bool Speaker::show(double now, semblante_frame& frame) {
     else if (i == second || levels_[i] > levels_[second])
       second = i;
   }
-  const auto level = [&](std::size_t i) { return static_cast<std::uint8_t>(levels_[i] + 0.5); };
+  const auto level = [&](std::size_t i) { return static_cast<std::uint8_t>(std::lround(levels_[i])); };
   frame.intensity1 = level(first);
   frame.expression1 = static_cast<std::uint8_t>(frame.intensity1 > 0 ? first : 0);
   frame.intensity2 = level(second);

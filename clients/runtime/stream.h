@@ -43,7 +43,7 @@ struct StreamOptions {
 class Stream {
  public:
   /// More than this waiting to be sent, bytes: what is published is refused, and pings are left out.
-  static constexpr std::size_t most_waiting = 256 * 1024;
+  static constexpr std::size_t most_waiting = std::size_t{256} * 1024;
 
   explicit Stream(const StreamOptions& options);
   ~Stream();

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <memory>
 #include <string>
 #include <vector>
@@ -179,7 +178,7 @@ semblante_result semblante_take_write(uint32_t format, const semblante_timed_fra
     if (written->size() > capacity) {
       return fail(error, SEMBLANTE_BUFFER_TOO_SMALL, "size", "the file needs " + std::to_string(*size) + " bytes");
     }
-    std::memcpy(text, written->data(), written->size());
+    std::copy(written->begin(), written->end(), text);
     return SEMBLANTE_OK;
   });
 }

@@ -193,11 +193,12 @@ std::vector<NeckSection> neck_sections(const Surface& surface, const std::vector
     for (const Surface::Step& edge : surface.steps_from(SurfaceVertexId(s))) {
       const glm::dvec3& b = surface.positions[edge.to.value()];
       if (b.y >= a.y) continue;  // each edge once, downwards
-      const double from = std::clamp(std::ceil((marks.chin.y - a.y) / step), 0.0, last + 1.0);
-      const double to = std::clamp(std::floor((marks.chin.y - b.y) / step), -1.0, last);
-      for (double k = from; k <= to; k += 1.0) {
-        const glm::dvec3 p = a + (b - a) * ((a.y - (marks.chin.y - k * step)) / (a.y - b.y));
-        NeckSection& section = sections[static_cast<std::size_t>(k)];
+      const auto from = static_cast<std::size_t>(std::clamp(std::ceil((marks.chin.y - a.y) / step), 0.0, last + 1.0));
+      const auto end = static_cast<std::size_t>(std::clamp(std::floor((marks.chin.y - b.y) / step), -1.0, last) + 1.0);
+      for (std::size_t k = from; k < end; ++k) {
+        const double height = marks.chin.y - static_cast<double>(k) * step;
+        const glm::dvec3 p = a + (b - a) * ((a.y - height) / (a.y - b.y));
+        NeckSection& section = sections[k];
         section.low = std::min(section.low, p.x);
         section.high = std::max(section.high, p.x);
         section.front = std::max(section.front, p.z);

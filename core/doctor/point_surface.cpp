@@ -179,9 +179,10 @@ void find_points_on_other_rim(const Subject& head, std::vector<Finding>& out) {
     Finding finding = at_point(head, point, FindingCode::point_on_other_rim, Severity::error);
     const std::string own(is_upper ? opening->upper_name : opening->lower_name);
     const std::string other(is_upper ? opening->lower_name : opening->upper_name);
-    finding.words = to_string(point.id) + " lies on the " + other + ", but it is a point of the " + own + "; the " +
-                    other + " follows both, and the " + (opening->is_mouth ? "mouth" : "eye") +
-                    " cannot open or close cleanly";
+    finding.words = to_string(point.id) + " lies on the ";
+    finding.words.append(other).append(", but it is a point of the ").append(own).append("; the ").append(other);
+    finding.words.append(" follows both, and the ").append(opening->is_mouth ? "mouth" : "eye");
+    finding.words += " cannot open or close cleanly";
     const VertexId vertex = head.surface.file_vertex_of[nearest.value()];
     finding.move = Move{point.id, vertex, head.surface.positions[nearest.value()]};
     finding.remedy =

@@ -267,13 +267,13 @@ Result<FeaturePointSet> place_feature_points(const Model& model, const Surface& 
       return std::nullopt;
     }
     const glm::dvec3& position = *point.position;
-    if (!point.vertex && is_pupil(point.id)) {
-      points.push_back({point.id, std::nullopt, glm::vec3(position)});
-    } else if (const std::optional<std::uint32_t> vertex = placement.vertex_at(position, own_side)) {
+    const bool is_bare = !point.vertex && is_pupil(point.id);
+    const auto vertex = is_bare ? std::nullopt : placement.vertex_at(position, own_side);
+    if (vertex) {
       points.push_back(placement.at_vertex(point.id, *vertex));
     } else if (point.vertex) {
       points.push_back(placement.at_vertex(point.id, *point.vertex));  // its vertex agrees with its position
-    } else if (may_be_bare(point.id)) {
+    } else if (is_bare || may_be_bare(point.id)) {
       points.push_back({point.id, std::nullopt, glm::vec3(position)});
     } else {
       auto nearest = placement.nearest_place(point.id, position, own_side);
@@ -283,7 +283,7 @@ Result<FeaturePointSet> place_feature_points(const Model& model, const Surface& 
       }
       const double away = glm::distance(glm::dvec3(nearest->position), position);
       if (away > disagrees * placement.diagonal()) projected.push_back(point.id);
-      points.push_back(std::move(*nearest));
+      points.push_back(*nearest);
     }
     return std::nullopt;
   };

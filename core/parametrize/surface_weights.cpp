@@ -64,8 +64,9 @@ Result<SurfaceWeights> surface_weights(const Surface& surface, std::span<const S
       if (!go_on(share / 2, "weights")) return Error{ErrorCode::cancelled, "", "stopped on request"};
       of_part[p] = smooth_part_weights(surface, distances, options.eye_separation, margins);
       if (options.method == WeightMethod::fitted && options.fitted_parts[p]) {
+        const std::size_t fitted_then = done + (share - share / 2);
         const double from = work == 0 ? 1.0 : static_cast<double>(done) / static_cast<double>(work);
-        const double to = work == 0 ? 1.0 : static_cast<double>(done + share - share / 2) / static_cast<double>(work);
+        const double to = work == 0 ? 1.0 : static_cast<double>(fitted_then) / static_cast<double>(work);
         const double unit = weight_unit(distances, options.eye_separation);
         auto fitted = fit_part_weights(distances, of_part[p], freedom_of_members(surface, distances, margins, unit),
                                        shapes_of_members(options.shapes, distances.members), unit, sample_every,

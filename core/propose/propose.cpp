@@ -262,7 +262,7 @@ class Proposer {
     // On a coarse mesh the nearest vertex may be beyond a neighbour: a fold of a lid above the lid's edge. An order
     // that leaves nothing near the place is that of a misplaced point, which the doctor names.
     const OrderBounds bounds = order_bounds(id_of(id), settled_);
-    const auto in_order = nearest([&](std::uint32_t v) { return is_free(v) && bounds.contains(face_.at(v)); });
+    auto in_order = nearest([&](std::uint32_t v) { return is_free(v) && bounds.contains(face_.at(v)); });
     if (in_order && is_near(face_.at(in_order->vertex), place, error)) return in_order;
     auto out_of_order = nearest(is_free);
     if (out_of_order && out_of_order->doubt.empty())

@@ -8,7 +8,9 @@ namespace semblante {
 Loudness::Loudness(const Utterance& utterance) {
   const double per_ms = utterance.sample_rate / 1000.0;
   const auto size = static_cast<double>(utterance.samples.size());
-  for (double ms = 0.0; ms < utterance.duration; ms += step_ms) {
+  const auto steps = static_cast<std::size_t>(std::ceil(std::max(0.0, utterance.duration) / step_ms));
+  for (std::size_t step = 0; step < steps; ++step) {
+    const double ms = static_cast<double>(step) * step_ms;
     const auto first = static_cast<std::size_t>(std::clamp((ms - window_ms / 2) * per_ms, 0.0, size));
     const auto last = static_cast<std::size_t>(std::clamp((ms + window_ms / 2) * per_ms, 0.0, size));
     double sum = 0.0;

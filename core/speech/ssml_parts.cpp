@@ -27,7 +27,7 @@ class Cutter {
   explicit Cutter(std::string_view text) : text_(text) {}
 
   TextParts cut() {
-    const TextParts whole{std::string(text_), {}};
+    TextParts whole{std::string(text_), {}};
     while (at_ < text_.size() && !(may_end_here() && !belongs_to_what_was_said()))
       if (!step()) return whole;
     if (!says_something_after()) return whole;

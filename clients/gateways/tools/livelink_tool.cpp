@@ -7,7 +7,8 @@
 #include "clients/gateways/livelink/receiver.h"
 #include "clients/gateways/tools/inbound.h"
 
-int main(int argc, char** argv) {
+// Only a mistake in the options themselves, or a lack of memory, throws here: both may end the program.
+int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape)
   using namespace semblante;
   gateways::InboundOptions options;
   options.program = "semblante-livelink";
