@@ -135,6 +135,7 @@ static unsafe class Native {
     [DllImport(Library)] public static extern uint semblante_stream_next_event(IntPtr stream, ref Event taken);
     [DllImport(Library)] public static extern TimedFrame* semblante_stream_frames(IntPtr stream, out uint count);
     [DllImport(Library)] public static extern int semblante_stream_publish(IntPtr stream, TimedFrame* frames, uint count, double mediaTime, double now);
+    [DllImport(Library)] public static extern int semblante_stream_publish_sound(IntPtr stream, byte[] packet, uint size, double mediaTime);
 
     [DllImport(Library)] public static extern int semblante_player_create(ref PlayerOptions options, out IntPtr player, out Error error);
     [DllImport(Library)] public static extern void semblante_player_destroy(IntPtr player);

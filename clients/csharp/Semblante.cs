@@ -130,10 +130,10 @@ public struct StreamEvent {
 
 /// One stream across connections. The caller owns the WebSocket (subprotocol "semblante.v1") and moves bytes.
 public sealed unsafe class Stream : Owner {
-    public Stream(bool publish = false, bool takeOver = false, double batch = 0) {
+    public Stream(bool publish = false, bool takeOver = false, double batch = 0, bool sound = false) {
         var options = new Native.StreamOptions {
             Size = (uint)sizeof(Native.StreamOptions), Role = publish ? 1u : 0u, TakeOver = takeOver ? 1u : 0u, Batch = batch,
-            Seed = (ulong)Guid.NewGuid().GetHashCode()
+            Seed = (ulong)Guid.NewGuid().GetHashCode(), Sound = sound ? 1u : 0u
         };
         Native.Error error;
         int result = Native.semblante_stream_create(ref options, out Handle, out error);
@@ -186,6 +186,11 @@ public sealed unsafe class Stream : Owner {
         fixed (TimedFrame* first = frames) {
             Check(Native.semblante_stream_publish(Handle, first, (uint)frames.Length, mediaTime, now));
         }
+    }
+
+    /// One Opus packet, heard from mediaTime on, on the clock of the frames; of a publisher with sound.
+    public void PublishSound(byte[] packet, double mediaTime) {
+        Check(Native.semblante_stream_publish_sound(Handle, packet, (uint)packet.Length, mediaTime));
     }
 }
 

@@ -28,6 +28,7 @@ export interface Functions extends Memory {
   semblante_stream_measure_clock(stream: number, now: number): void;
   semblante_stream_spoken(stream: number, state: number, speech: bigint, character: number, now: number): number;
   semblante_stream_publish(stream: number, frames: number, count: number, mediaTime: number, now: number): number;
+  semblante_stream_publish_sound(stream: number, packet: number, size: number, mediaTime: number): number;
 
   semblante_player_create(options: number, player: number, error: number): number;
   semblante_player_destroy(player: number): void;

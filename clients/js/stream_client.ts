@@ -87,7 +87,7 @@ export interface StreamOptions {
   role?: StreamRole;
   /** For a publisher: replace the current publisher. Default false. */
   takeOver?: boolean;
-  /** For a subscriber: ask for the sound of the stream too. Default false. */
+  /** For a subscriber: ask for the sound of the stream too; for a publisher: it sends sound (`publishSound`). Default false. */
   sound?: boolean;
   /** For a subscriber with a voice of its own: text in place of the frames and the sound of speech. Default false. */
   text?: boolean;
@@ -333,6 +333,21 @@ export class StreamClient extends Emitter<StreamEvents> {
       writeFrame(view, frame + timedFrameLayout.frame, state, this.steps);
     });
     const result = runtime.functions.semblante_stream_publish(stream, at, frames.length, mediaTime, this.options.now());
+    this.act();
+    return result === ok;
+  }
+
+  /**
+   * Sends one Opus packet as a publisher with `sound`: of at most 4000 bytes and 120 ms, without pre-skip, first heard at `mediaTime`, ms
+   * of the clock of the frames; packets do not overlap. Returns false and sends nothing while the stream is not open, the connection is
+   * congested, or the server takes no sound.
+   */
+  publishSound(packet: Uint8Array, mediaTime: number): boolean {
+    if (this.memory === null || this.state !== 'open' || !this.socket || this.socket.bufferedAmount > maxBufferedBytes) return false;
+    const { runtime, stream } = this.memory;
+    const at = this.memory.room(packet.byteLength);
+    new Uint8Array(runtime.view.buffer).set(packet, at);
+    const result = runtime.functions.semblante_stream_publish_sound(stream, at, packet.byteLength, mediaTime);
     this.act();
     return result === ok;
   }

@@ -239,7 +239,8 @@ typedef struct semblante_stream_options {
   double batch;         /* publisher: frames of this many ms travel in one message; 0: each publish is a message */
   /* Resume point of the first connection: 0, 0 for none. */
   uint64_t resume_epoch, resume_sequence;
-  uint32_t sound; /* subscriber: 1 asks for the sound of the stream, whose packets are SOUND events */
+  uint32_t sound; /* subscriber: 1 asks for the sound of the stream, whose packets are SOUND events; publisher: 1 if it
+                     sends sound (semblante_stream_publish_sound) */
   uint32_t text;  /* subscriber: 1, the client has a voice of its own: TEXT events in place of frames and sound of
                      speech. semblante_stream_spoken changes it */
 } semblante_stream_options;
@@ -412,6 +413,12 @@ void semblante_stream_resume_point(const semblante_stream* stream, uint64_t* epo
  * INVALID_ARGUMENT: not a publisher, count 0 or over 1024, FAPs or times that are not finite or out of range. */
 semblante_result semblante_stream_publish(semblante_stream* stream, const semblante_timed_frame* frames, uint32_t count,
                                           double media_time, double now);
+/* Publishes one Opus packet of at most 4000 bytes and 120 ms, without pre-skip, whose first sample is heard at
+ * `media_time`, ms of the clock of the frames; packets do not overlap. UNAVAILABLE, and nothing is sent, while the
+ * stream is not OPEN or 256 KiB wait, and where the header names no sound. INVALID_ARGUMENT: not a publisher whose
+ * options have `sound`, no Opus packet, a time out of range. */
+semblante_result semblante_stream_publish_sound(semblante_stream* stream, const uint8_t* packet, uint32_t size,
+                                                double media_time);
 
 /* VoiceState of the protocol. */
 typedef enum semblante_voice_state {

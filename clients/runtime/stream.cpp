@@ -107,7 +107,7 @@ void Stream::opened(double now) {
   hello.role = options_.role;
   hello.resume = resume_;
   hello.take_over = options_.take_over;
-  hello.sound = options_.sound && options_.role == StreamRole::subscribe;
+  hello.sound = options_.sound;
   hello.text = options_.text && options_.role == StreamRole::subscribe;
   send(hello);
 }

@@ -64,6 +64,8 @@ class Stream {
 
   enum class Published { sent, unavailable, invalid };
   Published publish(std::span<const semblante_timed_frame> frames, double media_time, double now);
+  /// One packet of sound; its media time is on the clock of the frames.
+  Published publish_sound(std::span<const std::uint8_t> packet, double media_time);
   void measure_clock(double now);
   /// What the client's own voice does; its media time is set here.
   Published spoken(Spoken spoken, double now);

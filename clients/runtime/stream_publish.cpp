@@ -4,6 +4,7 @@
 #include "clients/runtime/stream.h"
 #include "protocol/cpp/face_frame.h"
 #include "protocol/cpp/kernel_values.h"
+#include "protocol/cpp/opus_packet.h"
 
 namespace semblante::runtime {
 namespace {
@@ -11,9 +12,11 @@ namespace {
 /// Farthest time of a frame after the media time of its message, ms, as servers allow.
 constexpr double farthest_frame = 10'000;
 
+bool is_media_time(double time) { return time >= 0 && time <= static_cast<double>(max_media_time); }
+
 bool is_publishable(std::span<const semblante_timed_frame> frames, double media_time) {
   if (frames.empty() || frames.size() > max_frames_per_message) return false;
-  if (!(media_time >= 0 && media_time <= static_cast<double>(max_media_time))) return false;
+  if (!is_media_time(media_time)) return false;
   double before = 0;
   for (const auto& [time, frame] : frames) {
     if (!(time >= before && time <= farthest_frame)) return false;
@@ -37,6 +40,16 @@ Stream::Published Stream::publish(std::span<const semblante_timed_frame> frames,
     add_to_batch({static_cast<std::uint32_t>(std::lround(time)), quantized(frame, steps_)}, base, now);
   }
   if (!(options_.batch > 0)) flush();
+  return Published::sent;
+}
+
+Stream::Published Stream::publish_sound(std::span<const std::uint8_t> packet, double media_time) {
+  if (options_.role != StreamRole::publish || !options_.sound || !is_media_time(media_time) ||
+      packet.size() > max_sound_packet_bytes || !opus_packet_ms(packet))
+    return Published::invalid;
+  if (!greeted_ || ended_ || !header_->sound || outbox_.waiting() > most_waiting) return Published::unavailable;
+  // Not after the frames of its batch: it can be used as soon as it comes.
+  send(SoundPacket{static_cast<std::uint64_t>(std::llround(media_time)), {packet.begin(), packet.end()}});
   return Published::sent;
 }
 

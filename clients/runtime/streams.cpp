@@ -242,4 +242,10 @@ semblante_result semblante_stream_publish(semblante_stream* stream, const sembla
   return guarded(nullptr, [&] { return to_result(stream->it.publish({frames, count}, media_time, now)); });
 }
 
+semblante_result semblante_stream_publish_sound(semblante_stream* stream, const uint8_t* packet, uint32_t size,
+                                                double media_time) {
+  if (stream == nullptr || packet == nullptr) return SEMBLANTE_INVALID_ARGUMENT;
+  return guarded(nullptr, [&] { return to_result(stream->it.publish_sound({packet, size}, media_time)); });
+}
+
 }  // extern "C"

@@ -61,7 +61,7 @@ Player::Clock::time_point Player::next_sound_time() const {
 
 void Player::play_sound(Clock::time_point now) {
   for (auto when = next_sound_time(); when <= now; when = next_sound_time()) {
-    if (now - when <= latest_sound) stream_->publish_sound(ticket_, when, sound_->current()->packet);
+    if (now - when <= latest_sound) stream_->play_sound(ticket_, when, sound_->current()->packet);
     sound_->advance();
   }
 }

@@ -20,6 +20,8 @@ SourceArbiter::Refusal mismatch(std::string message) {
   return {Error{ErrorCode::mismatch, "", std::move(message)}, std::nullopt};
 }
 
+constexpr const char* taken_over = "another source has taken over this stream";
+
 SourceArbiter::Refusal too_many(FloodGuard& guard, FloodGuard::Verdict verdict) {
   if (verdict == FloodGuard::Verdict::drop) return {Error{ErrorCode::too_large, "/frames", ""}, verdict};
   return {Error{ErrorCode::too_large, "/frames", guard.words()}, verdict};
@@ -43,7 +45,7 @@ Result<SourceArbiter::Claim> SourceArbiter::claim(Source source, double rate, bo
                      ? "a connection publishes to this stream; only one source at a time"
                      : "another source plays into this stream; only one source at a time"};
   const bool replaces_publisher = is_held_by(Source::connection);
-  holder_ = Holder{++last_ticket_, source, rate, FloodGuard(limits_, now)};
+  holder_ = Holder{++last_ticket_, source, rate, FloodGuard(limits_, now), SoundGuard(now)};
   if (source == Source::connection) timeline_.forget_publisher();
   return Claim{last_ticket_, replaces_publisher};
 }
@@ -63,7 +65,7 @@ void SourceArbiter::heard(bool request, Clock::time_point now) {
 
 SourceArbiter::Placement SourceArbiter::place_published(Ticket ticket, std::uint64_t media_time,
                                                         std::vector<TimedFrame>& frames, Clock::time_point now) {
-  if (!holder_ || holder_->ticket != ticket) return mismatch("another source has taken over this stream");
+  if (!holder_ || holder_->ticket != ticket) return mismatch(taken_over);
   if (const auto verdict = holder_->guard.offer(frames.size(), now); verdict != FloodGuard::Verdict::take) {
     auto refusal = too_many(holder_->guard, verdict);
     if (verdict == FloodGuard::Verdict::close) {
@@ -77,6 +79,15 @@ SourceArbiter::Placement SourceArbiter::place_published(Ticket ticket, std::uint
                                           : timeline_.place_published(media_time_at(now), media_time, frames));
   if (std::holds_alternative<std::uint64_t>(placed)) heard(false, now);
   return placed;
+}
+
+Result<std::optional<std::uint64_t>> SourceArbiter::place_sound(Ticket ticket, const SoundPacket& sound,
+                                                                Clock::time_point now) {
+  if (!holds(ticket)) return Error{ErrorCode::mismatch, "", taken_over};
+  const auto lasts = holder_->sound.check(sound, now);
+  if (!lasts) return lasts.error();
+  heard(false, now);
+  return timeline_.place_published_sound(media_time_at(now), sound.media_time, *lasts);
 }
 
 SourceArbiter::Placement SourceArbiter::place_request(std::vector<TimedFrame>& frames, Clock::time_point now) {

@@ -9,6 +9,7 @@
 #include "core/types/result.h"
 #include "protocol/cpp/face_frame.h"
 #include "server/streams/flood_guard.h"
+#include "server/streams/sound_guard.h"
 #include "server/streams/source.h"
 #include "server/streams/timeline.h"
 
@@ -54,6 +55,12 @@ class SourceArbiter {
   /// `too_large` (too many frames, see Refusal::flood, or too far ahead of the stream's clock).
   Placement place_published(Ticket ticket, std::uint64_t media_time, std::vector<TimedFrame>& frames,
                             Clock::time_point now);
+  /// A packet of a publisher's sound: its media time on the stream's clock; nullopt when it is to be dropped because
+  /// the sound of an earlier source has not ended. Errors: `mismatch` (the publisher no longer holds the stream), those
+  /// of SoundGuard.
+  Result<std::optional<std::uint64_t>> place_sound(Ticket ticket, const SoundPacket& sound, Clock::time_point now);
+  /// A player's sound was sent.
+  void sound_played(std::uint64_t media_time, double lasts) { timeline_.sound_played(media_time, lasts); }
   /// Frames of a request. Errors as above; `mismatch` when there is a holder.
   Placement place_request(std::vector<TimedFrame>& frames, Clock::time_point now);
   /// One frame of a player, due at `when`. nullopt when it no longer holds the stream.
@@ -75,6 +82,7 @@ class SourceArbiter {
     Source source;
     double rate;
     FloodGuard guard;
+    SoundGuard sound;
   };
   [[nodiscard]] std::uint64_t media_time_at(Clock::time_point when) const {
     return streams::media_time_at(began_, when);

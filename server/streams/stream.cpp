@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "protocol/cpp/fap_ranges.h"
+#include "protocol/cpp/opus_packet.h"
 #include "protocol/cpp/speech_score.h"
 #include "server/streams/batch_listener.h"
 #include "server/streams/batch_sender.h"
@@ -178,16 +179,16 @@ void Stream::release(StreamPeer& publisher) {
   if (sources_.release(publisher.notes().ticket, Clock::now())) publisher_ = nullptr;
 }
 
-Result<Header> Stream::begin_publishing(StreamPeer& client, bool take_over) {
+Result<Header> Stream::begin_publishing(StreamPeer& client, const Hello& hello) {
   const std::lock_guard lock(mutex_);
   client.notes().said_hello = true;
-  auto ticket = claim(Source::connection, 0.0, take_over, &client);
+  auto ticket = claim(Source::connection, 0.0, hello.take_over, &client);
   if (!ticket) {
     if (!ended_) ++counts_.closed_conflict;
     return std::move(ticket).error();
   }
   client.notes().ticket = *ticket;
-  return header_for(false);
+  return header_for(false, hello.sound);
 }
 
 void Stream::end_publishing(StreamPeer& client) {
@@ -211,15 +212,33 @@ Status Stream::publish_playing(Ticket ticket, Clock::time_point when, const Time
   return Unit{};
 }
 
-void Stream::publish_sound(Ticket ticket, Clock::time_point when, const std::vector<std::uint8_t>& packet) {
+void Stream::take_sound(SoundPacket sound, Clock::time_point due, Clock::time_point now) {
+  ++counts_.sound_packets;
+  if (listener_) listener_->heard(made_.id, made_.epoch, sound);
+  fan_out_.push_sound(std::move(sound), due);
+  want(next_work(now));
+}
+
+void Stream::play_sound(Ticket ticket, Clock::time_point when, const std::vector<std::uint8_t>& packet) {
   const SendAfter after(*this);
   const std::lock_guard lock(mutex_);
   if (ended_ || !sources_.holds(ticket)) return;
-  ++counts_.sound_packets;
   SoundPacket sound{media_time_at(began_, when), packet};
-  if (listener_) listener_->heard(made_.id, made_.epoch, sound);
-  fan_out_.push_sound(std::move(sound), when);
-  want(next_work(Clock::now()));
+  sources_.sound_played(sound.media_time, opus_packet_ms(packet).value_or(0.0));
+  take_sound(std::move(sound), when, Clock::now());
+}
+
+Status Stream::publish_sound(StreamPeer& client, SoundPacket sound) {
+  const SendAfter after(*this);
+  const std::lock_guard lock(mutex_);
+  if (ended_) return has_ended();
+  const auto now = Clock::now();
+  const auto placed = sources_.place_sound(client.notes().ticket, sound, now);
+  if (!placed) return placed.error();
+  if (!*placed) return Unit{};
+  sound.media_time = **placed;
+  take_sound(std::move(sound), now, now);
+  return Unit{};
 }
 
 void Stream::publish_text(Ticket ticket, Clock::time_point when, SpeechText text) {

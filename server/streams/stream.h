@@ -57,7 +57,7 @@ class Stream : public StreamAccess, public std::enable_shared_from_this<Stream> 
   /// One frame of a player, due at `when`. Errors: `mismatch` when the play has ended.
   Status publish_playing(Ticket ticket, Clock::time_point when, const TimedFrame& frame);
   /// One packet of a player's sound, due at `when`. Dropped when the play has ended.
-  void publish_sound(Ticket ticket, Clock::time_point when, const std::vector<std::uint8_t>& packet);
+  void play_sound(Ticket ticket, Clock::time_point when, const std::vector<std::uint8_t>& packet);
   /// A sentence of this play for clients with a voice of their own; its first word begins at `when`. Until the play
   /// ends they get neither frames nor sound of it.
   void publish_text(Ticket ticket, Clock::time_point when, SpeechText text);
@@ -78,9 +78,10 @@ class Stream : public StreamAccess, public std::enable_shared_from_this<Stream> 
   [[nodiscard]] http::OutboxLimits outbox_limits() const override;
   [[nodiscard]] std::uint64_t media_time_now() const override { return media_time_at(began_, Clock::now()); }
   void subscribe(StreamPeer& client, http::WebSocketSink& sink, const Hello& hello, bool binary) override;
-  Result<Header> begin_publishing(StreamPeer& client, bool take_over) override;
+  Result<Header> begin_publishing(StreamPeer& client, const Hello& hello) override;
   std::optional<SourceArbiter::Refusal> publish(StreamPeer& client, std::uint64_t media_time,
                                                 const std::vector<TimedFrame>& frames) override;
+  Status publish_sound(StreamPeer& client, SoundPacket sound) override;
   void end_publishing(StreamPeer& client) override;
   void writable(StreamPeer& client) override;
   void leave(StreamPeer& client) override;
@@ -105,6 +106,7 @@ class Stream : public StreamAccess, public std::enable_shared_from_this<Stream> 
 
   // All with mutex_ held:
   PublishReceipt take(Source source, std::uint64_t media_time, std::vector<TimedFrame> frames, Clock::time_point now);
+  void take_sound(SoundPacket sound, Clock::time_point due, Clock::time_point now);
   Result<Ticket> claim(Source source, double rate, bool take_over, StreamPeer* publisher);
   void release(StreamPeer& publisher);
   /// The speech whose text was sent is over.

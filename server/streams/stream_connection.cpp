@@ -75,16 +75,20 @@ Result<Message> StreamConnection::read(std::string_view bytes, bool binary) {
       .decode(std::span(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()));
 }
 
+bool StreamConnection::may_send_message() {
+  if (messages_.take(1, TokenBucket::Clock::now())) return true;
+  close(Message(StreamError{StreamErrorCode::throttled, "", "too many messages"}), {1008, "sends too many messages"});
+  return false;
+}
+
 void StreamConnection::receive(std::string_view bytes, bool binary) {
   if (closing_) return;
   auto message = read(bytes, binary);
-  const bool has_frames =
-      message && (std::holds_alternative<Frames>(*message) || std::holds_alternative<Keyframe>(*message));
-  // The frames of a publisher have a limit of their own.
-  if (!(has_frames && role_ == Role::publishes) && !messages_.take(1, TokenBucket::Clock::now())) {
-    close(Message(StreamError{StreamErrorCode::throttled, "", "too many messages"}), {1008, "sends too many messages"});
-    return;
-  }
+  const bool has_media =
+      message && (std::holds_alternative<Frames>(*message) || std::holds_alternative<Keyframe>(*message) ||
+                  std::holds_alternative<SoundPacket>(*message));
+  // The frames and the sound of a publisher have limits of their own.
+  if (!(has_media && role_ == Role::publishes) && !may_send_message()) return;
   // An invalid message is answered with an error and the connection stays open. The stream closes a client that sends
   // no hello in time.
   if (message)
@@ -112,8 +116,7 @@ void StreamConnection::handle(Message message) {
             stream_->end_publishing(*this);
             close(Message(End{EndReason::finished}), {1000, "bye"});
           },
-          [&](const Pong&) {}, [&](const StreamError&) {},
-          [&](const SoundPacket&) { refuse(StreamErrorCode::invalid_argument, "", "only the server sends sound"); },
+          [&](const Pong&) {}, [&](const StreamError&) {}, [&](SoundPacket& sound) { handle_sound(std::move(sound)); },
           [&](const SpeechText&) { refuse(StreamErrorCode::invalid_argument, "", "only the server sends text"); },
           [&](const Spoken& spoken) { handle_spoken(spoken); },
           [&](const Header&) { refuse(StreamErrorCode::invalid_argument, "", "only the server sends a header"); }},
@@ -145,7 +148,8 @@ void StreamConnection::handle_hello(const Hello& hello) {
   }
   role_ = Role::publishes;
   decoder_ = std::make_unique<FrameDecoder>();
-  if (const auto header = stream_->begin_publishing(*this, hello.take_over)) {
+  has_sound_ = hello.sound;
+  if (const auto header = stream_->begin_publishing(*this, hello)) {
     send(Message(*header));
   } else {
     close(Message(StreamError{StreamErrorCode::conflict, "/role",
@@ -160,6 +164,16 @@ void StreamConnection::handle_spoken(const Spoken& spoken) {
     return;
   }
   if (const auto taken = stream_->spoken(*this, spoken); !taken) send(Message(to_stream_error(taken.error())));
+}
+
+void StreamConnection::handle_sound(SoundPacket sound) {
+  Status taken = Error{ErrorCode::invalid_argument, "", "only a publisher whose hello has `sound` sends sound"};
+  if (has_sound_) taken = stream_->publish_sound(*this, std::move(sound));
+  // Each refusal is answered, so it counts as a message.
+  if (taken || (role_ == Role::publishes && !may_send_message())) return;
+  auto error = to_stream_error(taken.error());
+  if (error.code == StreamErrorCode::too_large) error.code = StreamErrorCode::throttled;
+  send(Message(std::move(error)));
 }
 
 void StreamConnection::handle_frames(std::uint64_t media_time, const std::vector<TimedFrame>& frames) {

@@ -48,9 +48,12 @@ class StreamConnection : public http::WebSocketPeer, public StreamPeer {
   void send(const Message& message);
   void refuse(StreamErrorCode code, std::string where, std::string message);
   Result<Message> read(std::string_view bytes, bool binary);
+  /// Counts a message that is answered; false, and closes, when there are too many.
+  bool may_send_message();
   void handle(Message message);
   void handle_hello(const Hello& hello);
   void handle_spoken(const Spoken& spoken);
+  void handle_sound(SoundPacket sound);
   void handle_frames(std::uint64_t media_time, const std::vector<TimedFrame>& frames);
 
   const std::shared_ptr<StreamAccess> stream_;
@@ -58,6 +61,7 @@ class StreamConnection : public http::WebSocketPeer, public StreamPeer {
   const bool subprotocol_offered_;
   std::atomic<bool> closing_{false};
   Role role_ = Role::unknown;                                  ///< strand only
+  bool has_sound_ = false;                                     ///< strand only; of a publisher: its hello says so
   TokenBucket messages_{messages_per_second, messages_burst};  ///< strand only
   std::unique_ptr<FrameDecoder> decoder_;  ///< strand only; of a publisher: its messages depend on earlier ones
 

@@ -66,10 +66,13 @@ class StreamAccess {
   virtual void subscribe(StreamPeer& client, http::WebSocketSink& sink, const Hello& hello, bool binary) = 0;
   /// A hello of a publisher: returns its header. Errors: `mismatch` when another source holds the stream and
   /// `take_over` is not set, `missing` when the stream has ended.
-  virtual Result<Header> begin_publishing(StreamPeer& client, bool take_over) = 0;
+  virtual Result<Header> begin_publishing(StreamPeer& client, const Hello& hello) = 0;
   /// Publishes frames; `media_time` is by the publisher's clock, 0: now. nullopt when they are accepted.
   virtual std::optional<SourceArbiter::Refusal> publish(StreamPeer& client, std::uint64_t media_time,
                                                         const std::vector<TimedFrame>& frames) = 0;
+  /// Publishes a packet of sound; its media time is by the publisher's clock. Errors: those of
+  /// SourceArbiter::place_sound(), `missing` when the stream has ended.
+  virtual Status publish_sound(StreamPeer& client, SoundPacket sound) = 0;
   /// A publisher has finished; the next one can start before its socket is closed.
   virtual void end_publishing(StreamPeer& client) = 0;
   /// The client's outbox is empty: the kernel has all messages.

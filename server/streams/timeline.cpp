@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <string>
 
 namespace semblante::streams {
@@ -43,16 +44,7 @@ Result<std::uint64_t> Timeline::place_published(std::uint64_t now, std::uint64_t
                                                 std::vector<TimedFrame>& frames) {
   assert(!frames.empty());
   if (auto length = check_length(frames); !length) return length.error();
-  const auto here = static_cast<std::int64_t>(now);
-  const auto theirs = static_cast<std::int64_t>(std::min<std::uint64_t>(media_time, INT64_MAX / 4));
-  const auto last = static_cast<std::int64_t>(frames.back().time);
-  auto begin = theirs + offset_;
-  if (!offset_known_ || begin + last > here + static_cast<std::int64_t>(most_ahead) ||
-      begin < here - static_cast<std::int64_t>(most_behind)) {
-    offset_ = here - theirs;
-    offset_known_ = true;
-    begin = here;
-  }
+  const auto begin = on_stream_clock(now, media_time, frames.back().time);
   const auto newest = static_cast<std::int64_t>(newest_);
   const auto placed = std::max(begin, newest);
   for (auto& frame : frames) {
@@ -61,6 +53,27 @@ Result<std::uint64_t> Timeline::place_published(std::uint64_t now, std::uint64_t
   }
   newest_ = static_cast<std::uint64_t>(placed) + frames.back().time;
   return static_cast<std::uint64_t>(placed);
+}
+
+std::int64_t Timeline::on_stream_clock(std::uint64_t now, std::uint64_t media_time, std::uint64_t lasts) {
+  const auto here = static_cast<std::int64_t>(now);
+  const auto theirs = static_cast<std::int64_t>(std::min<std::uint64_t>(media_time, INT64_MAX / 4));
+  const auto begin = theirs + offset_;
+  if (offset_known_ && begin + static_cast<std::int64_t>(lasts) <= here + static_cast<std::int64_t>(most_ahead) &&
+      begin >= here - static_cast<std::int64_t>(most_behind))
+    return begin;
+  offset_ = here - theirs;
+  offset_known_ = true;
+  return here;
+}
+
+std::optional<std::uint64_t> Timeline::place_published_sound(std::uint64_t now, std::uint64_t media_time,
+                                                             double lasts) {
+  const auto begin = on_stream_clock(now, media_time, static_cast<std::uint64_t>(std::ceil(lasts)));
+  // Packets may last half milliseconds, and media times are whole ones.
+  if (begin < 0 || static_cast<double>(begin) < std::floor(sound_ends_)) return std::nullopt;
+  sound_played(static_cast<std::uint64_t>(begin), lasts);
+  return static_cast<std::uint64_t>(begin);
 }
 
 std::uint64_t Timeline::place_due(std::uint64_t when) {

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/types/result.h"
@@ -45,8 +46,19 @@ class Timeline {
   /// Places one frame that is due at `when`: at `when`, or at the newest frame's time if that is later.
   std::uint64_t place_due(std::uint64_t when);
 
+  /// Places a packet of sound of `lasts` ms with a time of a publisher's clock, which is the clock of its frames.
+  /// nullopt, and the packet is to be dropped, when the sound before it has not ended: that of an earlier source.
+  std::optional<std::uint64_t> place_published_sound(std::uint64_t now, std::uint64_t media_time, double lasts);
+  /// A packet of a player's sound, whose times are the stream's.
+  void sound_played(std::uint64_t media_time, double lasts) { sound_ends_ = static_cast<double>(media_time) + lasts; }
+
  private:
+  /// A time of the publisher's clock on the stream's. Sets the offset when there is none, or when what begins then and
+  /// ends `lasts` ms later would be too far ahead or behind: it then begins now.
+  std::int64_t on_stream_clock(std::uint64_t now, std::uint64_t media_time, std::uint64_t lasts);
+
   std::uint64_t newest_ = 0;
+  double sound_ends_ = 0.0;  ///< ms; of the newest packet
   std::int64_t offset_ = 0;  ///< stream clock minus the publisher's
   bool offset_known_ = false;
 };

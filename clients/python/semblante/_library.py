@@ -89,6 +89,7 @@ functions = {  # name: (result, arguments)
     "semblante_stream_measure_clock": (None, [_handle, c_double]),
     "semblante_stream_resume_point": (None, [_handle, POINTER(c_uint64), POINTER(c_uint64)]),
     "semblante_stream_publish": (_result, [_handle, _timed, c_uint32, c_double, c_double]),
+    "semblante_stream_publish_sound": (_result, [_handle, c_char_p, c_uint32, c_double]),
     "semblante_player_create": (_result, [POINTER(PlayerOptions), _made, _error]),
     "semblante_player_destroy": (None, [_handle]),
     "semblante_player_follow": (_result, [_handle, _handle]),

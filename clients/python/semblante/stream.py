@@ -47,8 +47,8 @@ class Stream(Owner):
     def __init__(self, *, publish=False, take_over=False, batch=0.0, seed=0, ping_interval=0.0, resume=None, sound=False,
                  text=False):
         """`batch`: a publisher's frames of this many ms travel in one message. `resume`: what `resume_point` of an earlier
-        object gave. `sound`: SOUND events bring the packets of the stream's sound. `text`: this client has
-        a voice of its own, and TEXT events come in place of frames and sound of speech."""
+        object gave. `sound`: SOUND events bring the packets of the stream's sound, or this publisher sends them. `text`: this
+        client has a voice of its own, and TEXT events come in place of frames and sound of speech."""
         epoch, sequence = resume or (0, 0)
         options = StreamOptions(role=int(publish), take_over=int(take_over), batch=batch, seed=seed,
                                 ping_interval=ping_interval, resume_epoch=epoch, resume_sequence=sequence, sound=int(sound),
@@ -150,3 +150,7 @@ class Stream(Owner):
             frames = [TimedFrame(0.0, frames)]
         block = (TimedFrame * len(frames))(*frames)
         check(library.semblante_stream_publish(self._handle, block, len(frames), media_time, now))
+
+    def publish_sound(self, packet, media_time):
+        """Publishes one Opus packet, heard from `media_time` on, on the clock of the frames; for a publisher with `sound`."""
+        check(library.semblante_stream_publish_sound(self._handle, packet, len(packet), media_time))

@@ -124,7 +124,7 @@ struct Hello {
   StreamRole role{};
   std::optional<ResumePoint> resume;  ///< present after a lost connection
   bool take_over = false;  ///< for a publisher: replace the current source
-  bool sound = false;  ///< for a subscriber: send the sound too
+  bool sound = false;  ///< for a subscriber: send the sound too; for a publisher: it sends sound
   bool text = false;  ///< for a subscriber with a voice of its own: send text in place of frames and sound of speech
   friend bool operator==(const Hello&, const Hello&) = default;
 };

@@ -60,7 +60,7 @@ export interface Hello {
   resume: ResumePoint | null;
   /** for a publisher: replace the current source */
   take_over: boolean;
-  /** for a subscriber: send the sound too */
+  /** for a subscriber: send the sound too; for a publisher: it sends sound */
   sound: boolean;
   /** for a subscriber with a voice of its own: send text in place of frames and sound of speech */
   text: boolean;

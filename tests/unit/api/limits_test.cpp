@@ -26,6 +26,7 @@
 #include "server/recordings/recording_format.h"
 #include "server/streams/flood_guard.h"
 #include "server/streams/player.h"
+#include "server/streams/sound_guard.h"
 #include "server/streams/stream_connection.h"
 #include "server/streams/stream_limits.h"
 #include "server/streams/timeline.h"
@@ -127,7 +128,7 @@ TEST(Limits, OfTheReadMe_AreThoseThatAreKept) {
       {"pings and pongs (control frames) of one WebSocket", rate_of(net.controls_per_second, net.controls_burst)},
       {"fragments of a message of a WebSocket; of one WebSocket, together, without the last of each message",
        count(net.max_fragments) + "; " + rate_of(net.fragments_per_second, net.fragments_burst)},
-      {"messages of one stream connection that are not a publisher's frames",
+      {"messages of one stream connection that are not a publisher's frames or sound",
        rate_of(streams::StreamConnection::messages_per_second, streams::StreamConnection::messages_burst)},
       {"subscriber that reads nothing", seconds(stream.stalled)},
       {"hello of a stream connection", seconds(stream.hello_time)},
@@ -169,6 +170,8 @@ TEST(Limits, OfTheReadMe_AreThoseThatAreKept) {
       {"connections of a stream", count(stream.max_connections)},
       {"WebSocket message", size(max_binary_message_bytes) + " binary, " + size(max_json_message_bytes) + " JSON"},
       {"frames of one publisher", rate},
+      {"sound of one publisher", count(streams::SoundGuard::bytes_per_second) + " bytes per second, " +
+                                     count(streams::SoundGuard::bytes_burst) + " in a burst"},
       {"frames by requests, of one stream", rate},
       {"frames ahead of the stream's clock, of a publisher or requests", count(streams::most_ahead / 1000) + " s"},
       {"state waiting for a subscriber, beside the kernel's buffer (32 KiB)",

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <cstddef>
 
 #include <gmock/gmock.h>
@@ -26,7 +27,7 @@ semblante_header header_of(const semblante_stream* stream) {
   return header;
 }
 
-TEST(Sound, Hello_AsksForIt_IfASubscriberWishes) {
+TEST(Sound, Hello_SaysWhetherTheClientHearsOrSendsIt) {
   for (const std::uint32_t role : {SEMBLANTE_ROLE_SUBSCRIBE, SEMBLANTE_ROLE_PUBLISH}) {
     for (const std::uint32_t wished : {0U, 1U}) {
       auto options = ScriptedServer::usual();
@@ -34,7 +35,7 @@ TEST(Sound, Hello_AsksForIt_IfASubscriberWishes) {
       options.sound = wished;
       ScriptedServer server(options);
       semblante_stream_start(server.stream, 1000);
-      EXPECT_EQ(server.open(1000).sound, wished == 1 && role == SEMBLANTE_ROLE_SUBSCRIBE);
+      EXPECT_EQ(server.open(1000).sound, wished == 1);
     }
   }
 }
@@ -53,6 +54,41 @@ TEST(Sound, Header_NamesIt) {
   EXPECT_EQ(told.sound_rate, 48'000U);
   EXPECT_EQ(told.sound_channels, 1U);
   EXPECT_EQ(told.sound_bitrate, 20'000U);
+}
+
+TEST(Sound, Publisher_SendsPacketsAtTheirTimes) {
+  auto options = ScriptedServer::usual();
+  options.role = SEMBLANTE_ROLE_PUBLISH;
+  options.sound = 1;
+  options.batch = 100;
+  ScriptedServer server(options);
+  const std::vector<std::uint8_t> packet = {0x08, 1, 2, 3};
+  const auto publish = [&](double media_time) {
+    return semblante_stream_publish_sound(server.stream, packet.data(), 4, media_time);
+  };
+  EXPECT_EQ(publish(5000), SEMBLANTE_UNAVAILABLE);
+  semblante_stream_start(server.stream, 1000);
+  server.open(1000);
+  Header header = ScriptedServer::header(7, 5000);
+  server.say(header, 1000);
+  EXPECT_EQ(publish(5000), SEMBLANTE_UNAVAILABLE) << "the server takes none";
+  header.sound = SoundTrack{SoundCodec::opus, 48'000, 1, 20'000};
+  server.say(header, 1000);
+  server.sent();
+
+  ASSERT_EQ(publish(5000.4), SEMBLANTE_OK);
+  const auto sent = server.sent();
+  ASSERT_EQ(sent.size(), 1U) << "at once, whatever the batches of frames";
+  EXPECT_EQ(std::get<SoundPacket>(sent[0]), (SoundPacket{5000, packet}));
+
+  const std::vector<std::uint8_t> long_packet(4001, 0x08);
+  EXPECT_EQ(publish(-1), SEMBLANTE_INVALID_ARGUMENT);
+  EXPECT_EQ(publish(std::nan("")), SEMBLANTE_INVALID_ARGUMENT);
+  EXPECT_EQ(semblante_stream_publish_sound(server.stream, packet.data(), 0, 6000), SEMBLANTE_INVALID_ARGUMENT);
+  EXPECT_EQ(semblante_stream_publish_sound(server.stream, long_packet.data(), 4001, 6000), SEMBLANTE_INVALID_ARGUMENT);
+  EXPECT_EQ(semblante_stream_publish_sound(server.stream, nullptr, 4, 6000), SEMBLANTE_INVALID_ARGUMENT);
+  EXPECT_EQ(semblante_stream_publish_sound(nullptr, packet.data(), 4, 6000), SEMBLANTE_INVALID_ARGUMENT);
+  EXPECT_TRUE(server.sent().empty());
 }
 
 TEST(Sound, Packet_IsAnEventWithItsTimeAndBytes) {

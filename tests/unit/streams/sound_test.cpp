@@ -44,7 +44,7 @@ class SoundTest : public ::testing::Test {
   std::shared_ptr<FakeClient> connect(bool sound) {
     return std::make_shared<FakeClient>(stream_, StreamRole::subscribe, sound);
   }
-  void sound(int ms) { stream_->publish_sound(ticket_, began_ + milliseconds(ms), packet); }
+  void sound(int ms) { stream_->play_sound(ticket_, began_ + milliseconds(ms), packet); }
   void frame(int ms, std::int16_t level) {
     EXPECT_TRUE(stream_->publish_playing(ticket_, began_ + milliseconds(ms), frame_with(level)));
   }
@@ -164,13 +164,130 @@ TEST_F(SoundTest, ReplacedSource_IsHeardNoMore) {
   EXPECT_TRUE(sounds_of(listener->take_all()).empty());
 }
 
-TEST_F(SoundTest, SoundOfAClient_IsRefused) {
+TEST_F(SoundTest, SoundOfASubscriber_IsRefused) {
   const auto client = connect(true);
   client->take_all();
   client->connection->receive(encode_json(Message(SoundPacket{1, packet})), false);
   const auto answers = client->take_all();
   ASSERT_EQ(answers.size(), 1U);
   EXPECT_EQ(std::get<StreamError>(answers[0]).code, StreamErrorCode::invalid_argument);
+}
+
+const Bytes packet_of_20_ms = {0x08, 1, 2, 3};
+
+/// A publisher with sound, and one who listens.
+class PublishedSoundTest : public ::testing::Test {
+ protected:
+  PublishedSoundTest() {
+    listener_->take_all();
+    publisher_->take_all();
+  }
+  std::shared_ptr<FakeClient> connect(StreamRole role, bool sound = true) {
+    return std::make_shared<FakeClient>(stream_, role, sound);
+  }
+  void send(const Message& message) { publisher_->connection->receive(encode_json(message), false); }
+  void frame(std::uint64_t media_time) { send(Frames{0, media_time, {frame_with(5)}}); }
+  void sound(std::uint64_t media_time, const Bytes& bytes = packet_of_20_ms) { send(SoundPacket{media_time, bytes}); }
+  /// The code of the only answer to the publisher.
+  StreamErrorCode refusal() {
+    const auto answers = publisher_->take_all();
+    EXPECT_EQ(answers.size(), 1U);
+    if (answers.empty() || !std::holds_alternative<StreamError>(answers[0])) return StreamErrorCode::other;
+    return std::get<StreamError>(answers[0]).code;
+  }
+
+  std::shared_ptr<Stream> stream_ = std::make_shared<Stream>(unbatched_stream(), StreamLimits{});
+  std::shared_ptr<FakeClient> listener_ = connect(StreamRole::subscribe);
+  std::shared_ptr<FakeClient> publisher_ = connect(StreamRole::publish);
+};
+
+TEST_F(PublishedSoundTest, Header_NamesTheSoundForThoseWhoSendIt) {
+  publisher_->leave();
+  const auto answers = connect(StreamRole::publish)->take_all();
+  ASSERT_EQ(answers.size(), 1U);
+  EXPECT_EQ(std::get<Header>(answers[0]).sound, stream_sound);
+}
+
+TEST_F(PublishedSoundTest, SoundAndFrames_AreOnOneClock) {
+  constexpr std::uint64_t begin = 5'000'000;  // by the publisher's clock
+  frame(begin);
+  sound(begin + 20);
+  sound(begin + 40);
+  const auto heard = listener_->take_all();
+  const auto sounds = sounds_of(heard);
+  ASSERT_EQ(sounds.size(), 2U);
+  EXPECT_EQ(sounds[0].packet, packet_of_20_ms);
+  ASSERT_TRUE(std::holds_alternative<Frames>(heard[0]));
+  EXPECT_EQ(sounds[0].media_time - std::get<Frames>(heard[0]).media_time, 20U);
+  EXPECT_EQ(sounds[1].media_time - sounds[0].media_time, 20U);
+  EXPECT_TRUE(publisher_->take_all().empty()) << "nothing was refused";
+  EXPECT_EQ(stream_->counts().sound_packets, 2U);
+}
+
+TEST_F(PublishedSoundTest, SoundAloneBegins_AndFramesFollowOnItsClock) {
+  sound(5000);
+  frame(5010);
+  const auto heard = listener_->take_all();
+  ASSERT_EQ(heard.size(), 2U);
+  EXPECT_EQ(std::get<Frames>(heard[1]).media_time - std::get<SoundPacket>(heard[0]).media_time, 10U);
+}
+
+TEST_F(PublishedSoundTest, PacketsThatOverlap_AreRefused) {
+  sound(5000);
+  sound(5019);
+  EXPECT_EQ(refusal(), StreamErrorCode::out_of_range);
+  sound(5020);
+  EXPECT_EQ(sounds_of(listener_->take_all()).size(), 2U);
+}
+
+TEST_F(PublishedSoundTest, PacketsOfHalfMilliseconds_FollowEachOther) {
+  const Bytes short_packet = {0x80, 1};  // 2.5 ms
+  for (const std::uint64_t at : {5000, 5002, 5005, 5007, 5010}) sound(at, short_packet);
+  EXPECT_TRUE(publisher_->take_all().empty());
+  EXPECT_EQ(sounds_of(listener_->take_all()).size(), 5U);
+}
+
+TEST_F(PublishedSoundTest, WithoutAHelloThatSaysSo_IsRefused) {
+  publisher_->leave();
+  publisher_ = connect(StreamRole::publish, false);
+  publisher_->take_all();
+  sound(5000);
+  EXPECT_EQ(refusal(), StreamErrorCode::invalid_argument);
+  EXPECT_TRUE(sounds_of(listener_->take_all()).empty());
+}
+
+TEST_F(PublishedSoundTest, ReplacedPublisher_IsHeardNoMore) {
+  sound(5000);
+  ASSERT_TRUE(stream_->begin_playing(25.0, true));
+  sound(5020);
+  EXPECT_EQ(sounds_of(listener_->take_all()).size(), 1U);
+}
+
+TEST_F(PublishedSoundTest, NextPublisher_IsHeardWhenTheSoundBeforeItHasEnded) {
+  sound(5000);
+  sound(6000);  // a second ahead
+  publisher_->leave();
+  publisher_ = connect(StreamRole::publish);
+  publisher_->take_all();
+  sound(90'000);
+  sound(91'100);
+  EXPECT_TRUE(publisher_->take_all().empty()) << "it did nothing wrong";
+  const auto sounds = sounds_of(listener_->take_all());
+  ASSERT_EQ(sounds.size(), 3U);
+  EXPECT_GE(sounds[2].media_time, sounds[1].media_time + 20);
+}
+
+TEST_F(PublishedSoundTest, MoreBytesThanOpusHas_AreThrottledAndThenClosed) {
+  const Bytes large(4000, 0x08);
+  std::uint64_t at = 5000;
+  for (int k = 0; k < 64; ++k, at += 20) sound(at, large);
+  EXPECT_TRUE(publisher_->take_all().empty());
+  sound(at, large);
+  EXPECT_EQ(refusal(), StreamErrorCode::throttled);
+  for (int k = 0; k < 1200; ++k) sound(at, large);
+  ASSERT_TRUE(publisher_->socket->closed());
+  EXPECT_EQ(publisher_->socket->closed()->code, 1008);
+  EXPECT_LE(sounds_of(listener_->take_all()).size(), 70U);
 }
 
 /// 400 ms, with three packets of 60 ms, the second of which is silent.

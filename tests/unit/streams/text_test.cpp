@@ -68,7 +68,7 @@ TEST_F(TextTest, Reader_GetsTextInPlaceOfFramesAndSound) {
   const auto reads = reader(true);
   text();
   frame(0, 5);
-  stream_->publish_sound(ticket_, began_, {0x18, 1});
+  stream_->play_sound(ticket_, began_, {0x18, 1});
   const auto got = reads->take_all();
   ASSERT_EQ(got.size(), 1U);
   const auto& said = std::get<SpeechText>(got[0]);
@@ -186,7 +186,7 @@ TEST_F(TextTest, VoiceThatFails_BringsFramesAtOnce) {
   ASSERT_EQ(keys.size(), 1U);
   EXPECT_EQ(keys[0].state.level[3], 5);
   frame(40, 6);
-  stream_->publish_sound(ticket_, began_ + milliseconds(40), {0x18, 1});
+  stream_->play_sound(ticket_, began_ + milliseconds(40), {0x18, 1});
   const auto got = reads->take_all();
   EXPECT_EQ(all_of<Frames>(got).size(), 1U);
   EXPECT_EQ(all_of<SoundPacket>(got).size(), 1U) << "it had asked for sound too";
