@@ -88,10 +88,12 @@ void FanOut::push(std::shared_ptr<Batch> batch) {
 
 void FanOut::push_sound(SoundPacket sound, Clock::time_point due) {
   if (listeners_ == 0) return;
-  if (passes_.size() >= most_passes / 2)
+  if (sounds_ >= most_sounds) {
     counts_.sound_dropped += listeners_;
-  else
-    passes_.push_back({Kind::sound, nullptr, std::move(sound), {}, due, is_text_});
+    return;
+  }
+  passes_.push_back({Kind::sound, nullptr, std::move(sound), {}, due, is_text_});
+  ++sounds_;
 }
 
 void FanOut::push_text(SpeechText text, Clock::time_point due, Clock::time_point until) {
@@ -258,7 +260,10 @@ void FanOut::finish_slice(Slice& slice, BatchLog& log) {
   }
   slice.wires_ = {};
   if (!subscribers_.pass_done()) return;
-  if (!passes_.empty()) passes_.pop_front();
+  if (!passes_.empty()) {
+    if (passes_.front().kind == Kind::sound) --sounds_;
+    passes_.pop_front();
+  }
   subscribers_.begin_pass();
 }
 
@@ -278,6 +283,7 @@ void FanOut::send_rest(BatchLog& log) {
     if (subscriber.behind) send_newest(subscriber, log);
   }
   passes_.clear();
+  sounds_ = 0;
 }
 
 void FanOut::writable(StreamPeer& client, BatchLog& log) {

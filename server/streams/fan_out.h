@@ -81,7 +81,7 @@ class FanOut {
   [[nodiscard]] bool reads(StreamPeer& client) const;
   [[nodiscard]] bool is_idle() const { return passes_.empty(); }
   /// False while the queue of batches is full; frames should gather longer then.
-  [[nodiscard]] bool has_room() const { return passes_.size() < most_passes; }
+  [[nodiscard]] bool has_room() const { return passes_.size() - sounds_ < most_passes; }
 
   /// Fills the next slice; false when no batch is queued.
   bool next_slice(Slice& slice, BatchLog& log);
@@ -98,6 +98,9 @@ class FanOut {
  private:
   /// When sending is slower than frames arrive, they gather into longer batches instead of a longer queue.
   static constexpr std::size_t most_passes = 4;
+  /// Packets of sound that wait besides: what a machine with much else to do is behind for a moment, a second of
+  /// packets of 60 ms.
+  static constexpr std::size_t most_sounds = 16;
 
   enum class Kind : std::uint8_t { batch, sound, text, newest };
   /// What is sent to all subscribers. `newest`: the newest state, to readers who have missed frames.
@@ -127,6 +130,7 @@ class FanOut {
 
   StreamCounts& counts_;
   SubscriberList subscribers_;
+  std::size_t sounds_ = 0;     ///< of the passes, those of sound
   std::size_t listeners_ = 0;  ///< subscribers that get the sound
   std::size_t readers_ = 0;
   bool is_text_ = false;            ///< what enters the stream is a speech whose text readers get
