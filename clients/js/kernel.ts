@@ -103,6 +103,8 @@ export class Kernel {
     /** address of semblante_triangles; 0 without normals */
     triangles: number;
     normals: number;
+    ownNormals: number;
+    restNormals: number;
     poses: number[];
     /** address of the pose of the current `positions` */
     shown: number;
@@ -110,7 +112,7 @@ export class Kernel {
 
   /**
    * `withVertices: false` omits the influence table, for deformation on the GPU: `deform` must not be called and
-   * `positions` is empty. `withNormals: true` makes `deform` also compute `normals` from the triangles, which takes
+   * `positions` is empty. `withNormals: true` makes `deform` also compute `normals`, those of the mesh turned as its triangles turn, which takes
    * about as long as the vertices. Throws FaceError `memory` when the memory is exhausted.
    */
   constructor(runtime: Runtime, face: Face, options: KernelOptions = {}) {
@@ -148,6 +150,8 @@ export class Kernel {
     const cornersAt = place(corners * 4);
     const joined = place(turned * 4);
     const normals = place(turned * 12);
+    const ownNormals = place(turned * 12);
+    const restNormals = place(turned * 12);
 
     const base = runtime.alloc(size);
     const memory = exports.memory.buffer;
@@ -187,7 +191,7 @@ export class Kernel {
     }
     if (turned > 0) {
       // A mesh without normals is treated as smooth: all vertices at one position share their normal.
-      if (mesh.normals) floats(normals, turned * 3).set(mesh.normals);
+      if (mesh.normals) floats(ownNormals, turned * 3).set(mesh.normals);
       new Uint32Array(memory, base + cornersAt, corners).set(mesh.triangles);
       const numbers = [turned, corners / 3, base + cornersAt, base + joined];
       new Uint32Array(memory, base + trianglesAt, 4).set(numbers);
@@ -197,9 +201,10 @@ export class Kernel {
       if (vertices > 0) prepared = prepare(runtime, base + faceAt);
       if (turned > 0) {
         const scratch = runtime.alloc(exports.semblante_join_scratch(turned) * 4);
-        exports.semblante_join_seams(turned, base + rest, base + normals, scratch, base + joined);
+        exports.semblante_join_seams(turned, base + rest, base + ownNormals, scratch, base + joined);
         runtime.free(scratch);
-        exports.semblante_normals(base + trianglesAt, base + positions, base + normals);
+        exports.semblante_rest_normals(base + trianglesAt, base + rest, base + ownNormals, base + restNormals);
+        floats(normals, turned * 3).set(floats(ownNormals, turned * 3));
       }
     } catch (error) {
       runtime.free(base);
@@ -220,6 +225,8 @@ export class Kernel {
       positions: base + positions,
       triangles: turned > 0 ? base + trianglesAt : 0,
       normals: base + normals,
+      ownNormals: base + ownNormals,
+      restNormals: base + restNormals,
       poses: poses.map((offset) => base + offset),
       shown: base + shown,
     };
@@ -321,9 +328,13 @@ export class Kernel {
   /** Deforms the mesh: Eq. 7, then eyes and tongue, then head. Writes `positions` and, if enabled, `normals`. */
   deform(pose: number): void {
     if (this.vertexCount === 0) throw new RangeError('this kernel was created without vertices');
-    const { face, positions, triangles, normals, shown } = this.at;
-    const moved = this.runtime.functions.semblante_deform_changed(face, shown, this.poseAt(pose), positions);
-    if (moved > 0 && triangles > 0) this.runtime.functions.semblante_normals(triangles, positions, normals);
+    const { face, positions, triangles, normals, ownNormals, restNormals, shown } = this.at;
+    const { functions } = this.runtime;
+    const moved = functions.semblante_deform_changed(face, shown, this.poseAt(pose), positions);
+    if (moved > 0 && triangles > 0) {
+      functions.semblante_normals(triangles, positions, normals);
+      functions.semblante_turn_normals(this.vertexCount, ownNormals, restNormals, normals);
+    }
     this.runtime.bytes.copyWithin(shown, this.poseAt(pose), this.poseAt(pose) + poseLayout.bytes);
   }
 

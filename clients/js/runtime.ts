@@ -50,6 +50,8 @@ export interface Functions extends Memory {
   semblante_join_scratch(vertices: number): number;
   semblante_join_seams(vertices: number, positions: number, normals: number, scratch: number, joined: number): void;
   semblante_normals(triangles: number, positions: number, normals: number): void;
+  semblante_rest_normals(triangles: number, positions: number, own: number, atRest: number): void;
+  semblante_turn_normals(vertices: number, own: number, atRest: number, normals: number): void;
   semblante_deform_changed(face: number, before: number, now: number, positions: number): number;
 }
 

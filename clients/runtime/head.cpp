@@ -139,6 +139,7 @@ semblante_result semblante_head_normals(const semblante_head* head, const float*
   }
   if (capacity < std::size_t{head->face.vertex_count} * 3) return SEMBLANTE_BUFFER_TOO_SMALL;
   semblante_normals(&head->triangles, positions, normals);
+  semblante_turn_normals(head->face.vertex_count, head->own_normals.data(), head->rest_normals.data(), normals);
   return SEMBLANTE_OK;
 }
 

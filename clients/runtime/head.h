@@ -59,7 +59,8 @@ struct semblante_head {
   std::unique_ptr<void, semblante::runtime::FreeAligned> prepared_memory;
   const semblante_prepared_face* prepared = nullptr;  ///< null: no vertices are computed
   std::vector<std::uint32_t> corners;
-  std::vector<std::uint32_t> joined;  ///< empty: no normals are computed
+  std::vector<std::uint32_t> joined;             ///< empty: no normals are computed
+  std::vector<float> own_normals, rest_normals;  ///< #V by 3: of the mesh, and from its triangles; else empty
   semblante_triangles triangles{};
   std::unique_ptr<semblante::runtime::EvaluatedPoses> evaluated =
       std::make_unique<semblante::runtime::EvaluatedPoses>();

@@ -55,6 +55,9 @@ void fill_triangles(semblante_head& head, const Mesh& mesh, bool computes_vertic
   std::vector<std::uint32_t> scratch(semblante_join_scratch(vertices));
   semblante_join_seams(vertices, mesh.positions.data(), mesh.normals.data(), scratch.data(), head.joined.data());
   head.triangles.joined = head.joined.data();
+  head.own_normals.assign(mesh.normals.begin(), mesh.normals.end());
+  head.rest_normals.resize(head.own_normals.size());
+  semblante_rest_normals(&head.triangles, mesh.positions.data(), head.own_normals.data(), head.rest_normals.data());
 }
 
 semblante_result check_triangles(const semblante_package& package, semblante_error* error) {

@@ -166,8 +166,8 @@ semblante_result semblante_head_positions(const semblante_head* head, float* pos
 semblante_result semblante_head_update_positions(const semblante_head* head, const semblante_pose* before,
                                                  float* positions, size_t capacity);
 
-/* Unit normals of `positions` from this head: both 3 * #V floats, `capacity` of `normals`. Seams are smooth, hard edges
- * stay hard. INVALID_ARGUMENT for a head without triangles and normals. */
+/* Unit normals of `positions` from this head: both 3 * #V floats, `capacity` of `normals`. Those of the mesh, turned as
+ * the triangles turn: seams stay smooth, hard edges hard. INVALID_ARGUMENT for a head without triangles and normals. */
 semblante_result semblante_head_normals(const semblante_head* head, const float* positions, float* normals,
                                         size_t capacity);
 

@@ -111,3 +111,35 @@ void semblante_normals(const semblante_triangles* triangles, const float* positi
     }
   }
 }
+
+SEMBLANTE_EXPORT(semblante_rest_normals)
+void semblante_rest_normals(const semblante_triangles* triangles, const float* positions, float* own, float* at_rest) {
+  semblante_normals(triangles, positions, at_rest);
+  for (size_t i = 0; i < (size_t)triangles->vertex_count * 3; i += 3) {
+    const float length = __builtin_sqrtf(square(own + i));
+    for (size_t k = i; k < i + 3; ++k) {
+      own[k] = length > 0.0F ? own[k] / length : at_rest[k];
+    }
+  }
+}
+
+static float dot(const float a[3], const float b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+SEMBLANTE_EXPORT(semblante_turn_normals)
+void semblante_turn_normals(uint32_t vertex_count, const float* own, const float* at_rest, float* normals) {
+  for (size_t i = 0; i < (size_t)vertex_count * 3; i += 3) {
+    const float* const v = own + i;
+    const float* const a = at_rest + i;
+    float* const b = normals + i;
+    const float opposite = 1.0F + dot(a, b);
+    if (!(opposite > 1e-4F)) {
+      continue; /* turned over: every rotation by half a turn is as small, and the triangles' own normal is kept */
+    }
+    /* The smallest rotation that carries unit a to unit b: v - (a + b) ((a + b) v) / (1 + a b) + 2 b (a v). */
+    const float along = dot(a, v);
+    const float of_sum = (along + dot(b, v)) / opposite;
+    for (int k = 0; k < 3; ++k) {
+      b[k] = v[k] - of_sum * a[k] + (2.0F * along - of_sum) * b[k];
+    }
+  }
+}

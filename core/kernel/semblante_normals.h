@@ -3,6 +3,9 @@
  * Every corner adds its triangle's normal, weighted by N. Max's weights ("Weights for Computing Vertex Normals from
  * Facet Normals", 1999): exact on a sphere, nearly independent of how a surface is cut into triangles, and free of
  * trigonometry. Vertices that a UV seam splits share one normal; hard edges stay hard.
+ *
+ * The neutral normals of a file may differ from these: an artist set them, or the mesh has vertices between others on
+ * a flat triangle. semblante_turn_normals keeps that difference while the face moves.
  */
 #ifndef SEMBLANTE_NORMALS_H
 #define SEMBLANTE_NORMALS_H
@@ -32,6 +35,16 @@ void semblante_join_seams(uint32_t vertex_count, const float* positions, const f
 
 /* Unit normals of the deformed positions, both #V by 3; +Z for vertices without a triangle of nonzero area. */
 void semblante_normals(const semblante_triangles* triangles, const float* positions, float* normals);
+
+/* Once per face, before semblante_turn_normals. positions: #V by 3, neutral. own: #V by 3, the normals of the file on
+ * the neutral face; scaled to unit length, and where they are zero replaced by those of semblante_normals. at_rest: #V
+ * by 3, becomes semblante_normals of the neutral face. */
+void semblante_rest_normals(const semblante_triangles* triangles, const float* positions, float* own, float* at_rest);
+
+/* Turns the normals of the file as the surface has turned: by the smallest rotation that carries at_rest to `normals`.
+ * own, at_rest: #V by 3, of semblante_rest_normals. normals: #V by 3, of semblante_normals for the deformed positions;
+ * replaced by the turned ones. Of the neutral face these are the file's own, within rounding. */
+void semblante_turn_normals(uint32_t vertex_count, const float* own, const float* at_rest, float* normals);
 
 #ifdef __cplusplus
 }

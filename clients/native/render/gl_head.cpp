@@ -307,13 +307,16 @@ Status GlHead::set_positions(std::span<const glm::vec3> positions) {
                      std::to_string(positions.size())};
   }
   impl.positions.assign(positions.begin(), positions.end());
-  const std::vector<glm::vec3> normals = impl.scene.normals.compute(positions);
-  std::vector<DynamicVertex> moving(impl.scene.file_vertex.size());
+  std::vector<glm::vec3> drawn;
+  drawn.reserve(impl.scene.file_vertex.size());
+  for (const std::uint32_t v : impl.scene.file_vertex) drawn.push_back(positions[v]);
+  const std::vector<glm::vec3> normals = impl.scene.normals.compute(drawn);
+  std::vector<DynamicVertex> moving;
+  moving.reserve(drawn.size());
   impl.posed_box = impl.scene.subjects.all;
-  for (std::size_t r = 0; r < moving.size(); ++r) {
-    const std::uint32_t v = impl.scene.file_vertex[r];
-    moving[r] = {positions[v], normals[v]};
-    impl.posed_box.add(positions[v]);
+  for (std::size_t r = 0; r < drawn.size(); ++r) {
+    moving.push_back({drawn[r], normals[r]});
+    impl.posed_box.add(drawn[r]);
   }
   glBindBuffer(GL_ARRAY_BUFFER, impl.dynamic_buffer);
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(moving.size() * sizeof(DynamicVertex)), moving.data(),

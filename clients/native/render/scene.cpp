@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
+#include <map>
 
 #include <stb/stb_image.h>
 
 #include "clients/native/render/eyeballs.h"
-#include "core/types/seeded_hash.h"
 
 namespace semblante::render {
 namespace {
@@ -38,6 +37,9 @@ Result<Unit> check(const Model& model) {
   }
   if (!model.uv_triangles.empty() && model.uv_triangles.size() != model.triangles.size()) {
     return Error{ErrorCode::mismatch, "uv_triangles", "must have one entry for each triangle"};
+  }
+  if (!model.normal_triangles.empty() && model.normal_triangles.size() != model.triangles.size()) {
+    return Error{ErrorCode::mismatch, "normal_triangles", "must have one entry for each triangle"};
   }
   return Unit{};
 }
@@ -132,27 +134,36 @@ Result<Scene> build_scene(const Model& model, const SceneOptions& options) {
               .triangles = {},
               .runs = std::move(runs),
               .textures = std::move(textures),
-              .normals = SmoothNormals(model.positions, model.triangles, group),
+              .normals = {},
               .subjects = {},
               .warnings = std::move(warnings)};
 
-  std::unordered_map<std::uint64_t, std::uint32_t, SeededHash> drawn;
+  std::map<Triangle, std::uint32_t> drawn;
+  std::vector<glm::vec3> positions;
+  std::vector<glm::vec3> own_normals;
   scene.triangles.resize(model.triangles.size());
   Box all;
+  const auto attribute = [&](const std::vector<Triangle>& of_triangle, std::size_t t, std::size_t corner) {
+    return of_triangle.empty() ? Model::no_index : of_triangle[t][corner];
+  };
   for (std::size_t t = 0; t < model.triangles.size(); ++t) {
     for (std::size_t corner = 0; corner < 3; ++corner) {
       const std::uint32_t vertex = model.triangles[t][corner];
-      const std::uint32_t uv = model.uv_triangles.empty() ? Model::no_index : model.uv_triangles[t][corner];
+      const std::uint32_t uv = attribute(model.uv_triangles, t, corner);
+      const std::uint32_t normal = attribute(model.normal_triangles, t, corner);
       const auto [entry, is_new] =
-          drawn.try_emplace(std::uint64_t{vertex} << 32U | uv, static_cast<std::uint32_t>(scene.file_vertex.size()));
+          drawn.try_emplace({vertex, uv, normal}, static_cast<std::uint32_t>(scene.file_vertex.size()));
       if (is_new) {
         scene.file_vertex.push_back(vertex);
         scene.uvs.push_back(uv < model.uvs.size() ? model.uvs[uv] : glm::vec2(0.0F));
+        positions.push_back(model.positions[vertex]);
+        own_normals.push_back(normal < model.normals.size() ? model.normals[normal] : glm::vec3(0.0F));
         all.add(model.positions[vertex]);
       }
       scene.triangles[t][corner] = entry->second;
     }
   }
+  scene.normals = SmoothNormals(positions, std::move(own_normals), scene.triangles, group);
   scene.subjects = find_subjects(all, options.points, find_eyeballs(model.positions, model.triangles, is_eye));
   return scene;
 }

@@ -34,15 +34,15 @@ struct Run {
   std::uint32_t triangle_count = 0;
 };
 
-/// A model laid out for drawing: one vertex for each (file vertex, uv) pair.
+/// A model laid out for drawing: one vertex for each triple of a file vertex, a UV and a normal.
 struct Scene {
   std::vector<glm::vec3> rest;             ///< #V: file vertices of the neutral head
-  std::vector<std::uint32_t> file_vertex;  ///< #R: the file vertex with the position and normal of a drawn vertex
+  std::vector<std::uint32_t> file_vertex;  ///< #R: the file vertex with the position of a drawn vertex
   std::vector<glm::vec2> uvs;              ///< #R
   std::vector<Triangle> triangles;         ///< #T, drawn vertices
   std::vector<Run> runs;
   std::vector<Texture> textures;
-  SmoothNormals normals;
+  SmoothNormals normals;  ///< of the drawn vertices
   Subjects subjects;
   std::vector<std::string> warnings;  ///< images that could not be decoded
 };

@@ -4,14 +4,22 @@
 #include <numeric>
 #include <utility>
 
-#include "core/kernel/semblante_normals.h"
 #include "core/types/place.h"
 
 namespace semblante::render {
 
-SmoothNormals::SmoothNormals(std::span<const glm::vec3> positions, std::span<const Triangle> triangles,
-                             std::span<const std::uint8_t> group_of_triangle)
-    : triangles_(triangles.begin(), triangles.end()), joined_(positions.size()) {
+namespace {
+
+static_assert(sizeof(Triangle) == 3 * sizeof(std::uint32_t) && sizeof(glm::vec3) == 3 * sizeof(float));
+
+}  // namespace
+
+SmoothNormals::SmoothNormals(std::span<const glm::vec3> positions, std::vector<glm::vec3> own,
+                             std::span<const Triangle> triangles, std::span<const std::uint8_t> group_of_triangle)
+    : triangles_(triangles.begin(), triangles.end()),
+      joined_(positions.size()),
+      own_(std::move(own)),
+      at_rest_(positions.size()) {
   std::vector<std::uint8_t> group(positions.size());
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     for (const std::uint32_t v : triangles[t]) {
@@ -26,18 +34,24 @@ SmoothNormals::SmoothNormals(std::span<const glm::vec3> positions, std::span<con
     const bool same_as_last = i > 0 && key(order[i]) == key(order[i - 1]);
     joined_[order[i]] = same_as_last ? joined_[order[i - 1]] : order[i];
   }
+  if (positions.empty()) return;
+  const semblante_triangles mesh = table();
+  semblante_rest_normals(&mesh, &positions.front().x, &own_.front().x, &at_rest_.front().x);
+}
+
+semblante_triangles SmoothNormals::table() const {
+  return {static_cast<std::uint32_t>(joined_.size()), static_cast<std::uint32_t>(triangles_.size()),
+          triangles_.empty() ? nullptr : triangles_.front().data(), joined_.data()};
 }
 
 std::vector<glm::vec3> SmoothNormals::compute(std::span<const glm::vec3> positions) const {
-  static_assert(sizeof(Triangle) == 3 * sizeof(std::uint32_t) && sizeof(glm::vec3) == 3 * sizeof(float));
   std::vector<glm::vec3> normals(joined_.size());
   if (normals.empty()) {
     return normals;
   }
-  const semblante_triangles triangles{static_cast<std::uint32_t>(joined_.size()),
-                                      static_cast<std::uint32_t>(triangles_.size()),
-                                      triangles_.empty() ? nullptr : triangles_.front().data(), joined_.data()};
-  semblante_normals(&triangles, &positions.front().x, &normals.front().x);
+  const semblante_triangles mesh = table();
+  semblante_normals(&mesh, &positions.front().x, &normals.front().x);
+  semblante_turn_normals(mesh.vertex_count, &own_.front().x, &at_rest_.front().x, &normals.front().x);
   return normals;
 }
 

@@ -53,7 +53,7 @@ std::vector<float> table(const json& sets) {
 
 struct Checker {
   json file;
-  std::vector<float> viseme, expression, rest, rest_normals, weights;
+  std::vector<float> viseme, expression, rest, rest_normals, computed_at_rest, weights;
   std::vector<std::uint32_t> offsets{0}, triangles, joined, scratch;
   std::vector<std::uint8_t> points, rigid, turn;
   std::vector<semblante_companion> companions;
@@ -125,6 +125,8 @@ struct Checker {
     scratch.resize(semblante_join_scratch(count));
     semblante_join_seams(count, rest.data(), rest_normals.data(), scratch.data(), joined.data());
     mesh = {count, static_cast<std::uint32_t>(triangles.size() / 3), triangles.data(), joined.data()};
+    computed_at_rest.resize(rest.size());
+    semblante_rest_normals(&mesh, rest.data(), rest_normals.data(), computed_at_rest.data());
   }
 
   semblante_pose pose(std::size_t index) const {
@@ -164,6 +166,7 @@ struct Checker {
     }
     std::vector<float> normals(rest.size());
     semblante_normals(&mesh, positions.data(), normals.data());
+    semblante_turn_normals(mesh.vertex_count, rest_normals.data(), computed_at_rest.data(), normals.data());
     const auto golden_normals = numbers<double>(golden["vertex_normals"]);
     for (std::size_t i = 0; i < golden_normals.size(); i += 3) {
       double square = 0.0;  // of the chord between the two

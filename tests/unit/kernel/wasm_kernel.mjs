@@ -144,13 +144,16 @@ export class WasmKernel {
     semblante_join_seams(rest.length, restAt, normalsAt, scratchAt, joinedAt);
     const at = this.alloc(16);
     new Uint32Array(memory.buffer, at, 4).set([rest.length, triangles.length, cornersAt, joinedAt]);
-    return at;
+    const atRest = this.alloc(rest.length * 12);
+    this.exports.semblante_rest_normals(at, restAt, normalsAt, atRest);
+    return { at, own: normalsAt, atRest };
   }
 
   normals(triangles, positions) {
     const positionsAt = this.floats(positions);
     const at = this.alloc(positions.length * 4);
-    this.exports.semblante_normals(triangles, positionsAt, at);
+    this.exports.semblante_normals(triangles.at, positionsAt, at);
+    this.exports.semblante_turn_normals(positions.length / 3, triangles.own, triangles.atRest, at);
     return new Float32Array(this.exports.memory.buffer, at, positions.length).slice();
   }
 }

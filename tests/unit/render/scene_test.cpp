@@ -54,22 +54,48 @@ TEST(SmoothNormals, OverASeam_AreTheSameOnBothSides) {
   const Model model = seamed_ball();
   const auto scene = build_scene(model);
   ASSERT_TRUE(scene);
-  const std::vector<glm::vec3> normals = scene->normals.compute(model.positions);
-  for (std::size_t v = 0; v < normals.size(); ++v) {
+  std::vector<glm::vec3> positions;
+  std::vector<std::size_t> drawn_of(model.positions.size());
+  for (const std::uint32_t v : scene->file_vertex) {
+    drawn_of[v] = positions.size();
+    positions.push_back(model.positions[v]);
+  }
+  const std::vector<glm::vec3> normals = scene->normals.compute(positions);
+  for (std::size_t r = 0; r < normals.size(); ++r) {
     // A ball's normal is its position; a coarse one is a little off.
-    EXPECT_GT(glm::dot(normals[v], model.positions[v]), 0.99F) << v;
-    EXPECT_NEAR(glm::length(normals[v]), 1.0F, 1e-5F);
+    EXPECT_GT(glm::dot(normals[r], positions[r]), 0.99F) << r;
+    EXPECT_NEAR(glm::length(normals[r]), 1.0F, 1e-5F);
   }
   for (std::size_t ring = 0; ring <= 16; ++ring) {
-    EXPECT_EQ(normals[ring * 25], normals[ring * 25 + 24]) << ring;
+    EXPECT_EQ(normals[drawn_of[ring * 25]], normals[drawn_of[ring * 25 + 24]]) << ring;
   }
+}
+
+TEST(SmoothNormals, OfTheFile_AreKeptAtRestAndTurnWithTheSurface) {
+  const std::vector<glm::vec3> rest = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  const glm::vec3 own = glm::normalize(glm::vec3(0.3F, 0.2F, 1.0F));
+  const render::SmoothNormals normals(rest, {own, 2.0F * own, glm::vec3(0.0F)}, std::vector<Triangle>{{0, 1, 2}},
+                                      std::vector<std::uint8_t>{0});
+  const auto are_near = [](const glm::vec3& found, const glm::vec3& expected) {
+    EXPECT_LT(glm::distance(found, expected), 1e-6F);
+  };
+  const std::vector<glm::vec3> neutral = normals.compute(rest);
+  are_near(neutral[0], own);
+  are_near(neutral[1], own);
+  are_near(neutral[2], {0, 0, 1});
+  // By a quarter turn about x: (x, y, z) -> (x, -z, y).
+  const std::vector<glm::vec3> turned = normals.compute(std::vector<glm::vec3>{{0, 0, 0}, {1, 0, 0}, {0, 0, 1}});
+  are_near(turned[0], {own.x, -own.z, own.y});
+  are_near(turned[2], {0, -1, 0});
+  // Turned over there is no smallest rotation.
+  are_near(normals.compute(std::vector<glm::vec3>{{0, 0, 0}, {1, 0, 0}, {0, -1, 0}})[0], {0, 0, -1});
 }
 
 TEST(SmoothNormals, WithoutArea_AreStillUnit) {
   const std::vector<glm::vec3> positions(3, glm::vec3(1, 2, 3));
   const std::vector<Triangle> triangles = {{0, 1, 2}};
   const std::vector<std::uint8_t> groups = {0};
-  const render::SmoothNormals normals(positions, triangles, groups);
+  const render::SmoothNormals normals(positions, std::vector<glm::vec3>(3, glm::vec3(0.0F)), triangles, groups);
   for (const glm::vec3& normal : normals.compute(positions)) {
     EXPECT_EQ(normal, glm::vec3(0, 0, 1));
   }

@@ -270,21 +270,32 @@ TEST(HeadUpdatePositions, GivesWhatAllPositionsWouldBe) {
 TEST(HeadNormals, FollowTheFace_AndNeedTriangles) {
   const SmallPackage small;
   const std::array<std::uint32_t, 6> triangles{0, 1, 2, 0, 2, 3};
-  const std::array<float, 12> flat{0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
+  const std::array<float, 12> leaning{3, 0, 4, 0, 0, 2, 0, 0, 0, 0, 0, 1};  // of any length; zero: none
   semblante_package package = small.view();
   package.triangles = triangles.data();
   package.triangle_count = 2;
-  package.normals = flat.data();
+  package.normals = leaning.data();
   semblante_head* made = nullptr;
   ASSERT_EQ(semblante_head_create(&package, nullptr, &made, nullptr), SEMBLANTE_OK);
   const OwnedHead head(made);
-  const std::array<float, 12> corner{0, 0, 0, 0, 1, 0, 0, 0, 1, 0, -1, 1};  // in the plane x = 0
   std::array<float, 12> normals{};
-  ASSERT_EQ(semblante_head_normals(head.get(), corner.data(), normals.data(), normals.size()), SEMBLANTE_OK);
-  for (std::size_t v = 0; v < 4; ++v) {
-    EXPECT_FLOAT_EQ(normals[v * 3], 1.0F) << v;
-    EXPECT_FLOAT_EQ(normals[v * 3 + 1], 0.0F) << v;
+  const auto expect_normal = [&](std::size_t v, const std::array<float, 3>& expected) {
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(normals[3 * v + k], expected[k], 1e-6F) << v;
+  };
+  ASSERT_EQ(semblante_head_normals(head.get(), small.positions.data(), normals.data(), normals.size()), SEMBLANTE_OK);
+  expect_normal(0, {0.6F, 0, 0.8F});
+  expect_normal(1, {0, 0, 1});
+  const float even = std::sqrt(0.5F);
+  expect_normal(2, {even, 0, -even});  // of the triangles
+
+  std::array<float, 12> corner{};  // a quarter turn about y: (x, y, z) -> (z, y, -x)
+  for (std::size_t v = 0; v < 12; v += 3) {
+    corner[v] = small.positions[v + 2], corner[v + 1] = small.positions[v + 1], corner[v + 2] = -small.positions[v];
   }
+  ASSERT_EQ(semblante_head_normals(head.get(), corner.data(), normals.data(), normals.size()), SEMBLANTE_OK);
+  expect_normal(0, {0.8F, 0, -0.6F});
+  expect_normal(1, {1, 0, 0});
+  expect_normal(2, {-even, 0, -even});
   EXPECT_EQ(semblante_head_normals(head.get(), corner.data(), normals.data(), 11), SEMBLANTE_BUFFER_TOO_SMALL);
   EXPECT_EQ(semblante_head_normals(make(small).get(), corner.data(), normals.data(), 12), SEMBLANTE_INVALID_ARGUMENT);
 
