@@ -227,9 +227,8 @@ class Proposer {
   }
 
   /// On a coarse mesh: a place between vertices that is clearly nearer to the expected one than `nearest`, the vertex
-  /// to choose otherwise. It keeps the order of the points on a face and does not come near another point. Only for
-  /// mirror images, which are certain, or if no vertex is near, because each vertex that the head gets is seen in its
-  /// shading; and not for lips and lids, because only vertices have a side.
+  /// to choose otherwise. It keeps the order of the points on a face and does not come near another point. Not
+  /// for lips and lids, because only vertices have a side.
   [[nodiscard]] std::optional<glm::dvec3> place_between(std::size_t id, PartRole role, const glm::dvec3& place,
                                                         double error, const std::optional<RimVertex>& nearest) const {
     constexpr double of_a_vertex = 0.05;
@@ -238,7 +237,6 @@ class Proposer {
     const double off =
         nearest ? glm::distance(face_.at(nearest->vertex), place) : std::numeric_limits<double>::infinity();
     if (off < of_a_vertex) return std::nullopt;
-    if (!images_[id] && nearest && is_near(face_.at(nearest->vertex), place, error)) return std::nullopt;
     const auto between = face_.nearest_between(role, place);
     if (!between || !is_near(*between, place, error) || glm::distance(*between, place) > 0.5 * off) return std::nullopt;
     if (!order_bounds(id_of(id), settled_).contains(*between)) return std::nullopt;
