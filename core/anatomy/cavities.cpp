@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/anatomy/smooth_step.h"
+#include "core/geometry/edge_path_search.h"
 #include "core/geometry/shortest_path.h"
 #include "core/tables/openings.h"
 
@@ -115,6 +116,33 @@ std::vector<Cavity> find_cavities(const Surface& surface, PartId part, std::span
     if (!cavity.members.empty()) cavities.push_back(std::move(cavity));
   }
   return cavities;
+}
+
+std::vector<bool> inside_of_mouth(const Surface& surface, std::span<const Part> parts,
+                                  std::span<const SurfacePoint> points, double eye_separation) {
+  constexpr double thickness_of_lip = 0.15;  // ES0
+  std::vector<bool> inside;
+  for (std::uint32_t p = 0; p < parts.size(); ++p) {
+    if (parts[p].role != PartRole::skin) continue;
+    for (const Cavity& cavity : find_cavities(surface, PartId(p), points)) {
+      if (!cavity.is_mouth) continue;
+      const auto is_member = [&](SurfaceVertexId v) {
+        return std::binary_search(cavity.members.begin(), cavity.members.end(), v);
+      };
+      std::vector<SurfaceVertexId> rim;
+      for (const SurfaceVertexId v : cavity.members) {
+        for (const Surface::Step& step : surface.steps_from(v)) {
+          if (!is_member(step.to)) rim.push_back(step.to);
+        }
+      }
+      EdgePathSearch search(surface);
+      const auto from_rim = search.from(rim);
+      inside.resize(surface.vertex_count(), false);
+      for (const SurfaceVertexId v : cavity.members)
+        inside[v.value()] = from_rim[v.value()] > thickness_of_lip * eye_separation;
+    }
+  }
+  return inside;
 }
 
 double jaw_share_in_mouth(const glm::dvec3& from_corners) {

@@ -7,6 +7,7 @@
 
 #include "core/anatomy/point_lookup.h"
 #include "core/geometry/surface.h"
+#include "core/types/rig.h"
 
 namespace semblante {
 
@@ -22,6 +23,12 @@ struct Cavity {
 /// off the rims without crossing a rim. No cavity where the surface ends at the rim, where points are missing, or where
 /// a point (a tongue's, on a head whose tongue is a part of its skin) lies behind the rim.
 std::vector<Cavity> find_cavities(const Surface& surface, PartId part, std::span<const SurfacePoint> points);
+
+/// #S: whether a vertex of the skin lies in the mouth, behind the lips: farther from the rim than a lip is thick, along
+/// the surface. `points`: all of the head; `eye_separation`: ES0, model units. Empty without a mouth that has an
+/// inside.
+std::vector<bool> inside_of_mouth(const Surface& surface, std::span<const Part> parts,
+                                  std::span<const SurfacePoint> points, double eye_separation);
 
 /// How far the inside of the mouth follows the jaw at a place, 0 to 0.85. `from_corners`: its offset from the middle
 /// between the corners of the mouth, in ES0. The share falls from the floor of the mouth to its roof and from the lips

@@ -2,14 +2,20 @@
 
 #include <utility>
 
+#include "core/anatomy/cavities.h"
 #include "core/lod/lod_poses.h"
 #include "core/materials/painted_eyes.h"
+#include "core/materials/painted_mouth.h"
 
 namespace semblante {
 
 Result<LevelledHead> level_head(RiggedHead rigged, std::vector<std::uint32_t> budgets, const Progress& progress) {
   LevelledHead head{std::move(rigged), {}, {}, {}, {}};
   paint_eyes(head.model, head.surface, head.rig.parts, eyes_of(head.rig));
+  const double eye_separation = 1024.0 * head.rig.fapu[FapuUnit::es].value_or(0.0);
+  paint_mouth(
+      head.model, head.surface, head.rig.parts,
+      inside_of_mouth(head.surface, head.rig.parts, surface_points(head.surface, head.rig.points), eye_separation));
   head.materials = assign_materials(head.model, head.surface, head.rig.parts);
   if (budgets.empty()) return head;
   head.poses = lod_poses(head.rig, head.model);

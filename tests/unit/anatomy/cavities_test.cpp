@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include "tests/support/meshes.h"
@@ -73,6 +74,31 @@ TEST(Cavities, OfTheSampleHeadAreItsMouthBehindTheLips) {
       std::find_if(cavities.begin(), cavities.end(), [](const Cavity& cavity) { return cavity.is_mouth; });
   ASSERT_NE(mouth, cavities.end());
   for (const SurfacePoint& p : points) EXPECT_FALSE(holds(*mouth, p.vertex.value())) << to_string(p.id);
+}
+
+// With ES0 of 16 cells the thickness of a lip is 2.4 of them.
+TEST(InsideOfMouth, BeginsBehindTheThicknessOfALip) {
+  const Model model = testing::make_grid(side, side);
+  const Surface surface = build_surface(model);
+  const auto points = surface_points(surface, testing::points_at(model, {{"2.4", at(30, 20)},
+                                                                         {"2.5", at(10, 20)},
+                                                                         {"2.6", at(28, 28)},
+                                                                         {"2.7", at(12, 28)},
+                                                                         {"2.8", at(28, 12)},
+                                                                         {"2.9", at(12, 12)},
+                                                                         {"2.1", at(20, 3)}}));
+  std::vector<Part> parts(1);
+  parts[0].role = PartRole::skin;
+  const double cell = glm::distance(model.positions[at(1, 0)], model.positions[at(0, 0)]);
+  const std::vector<bool> inside = inside_of_mouth(surface, parts, points, 16.0 * cell);
+
+  ASSERT_EQ(inside.size(), surface.vertex_count());
+  EXPECT_TRUE(inside[at(20, 20)]);
+  EXPECT_TRUE(inside[at(20, 25)]);
+  EXPECT_FALSE(inside[at(20, 26)]);
+  EXPECT_FALSE(inside[at(20, 35)]);
+  parts[0].role = PartRole::body;
+  EXPECT_TRUE(inside_of_mouth(surface, parts, points, 16.0 * cell).empty());
 }
 
 TEST(JawShareInMouth, FallsToTheRoofAndToTheHinge) {
