@@ -7,6 +7,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/anatomy/front_points.h"
 #include "core/anatomy/part_roles.h"
 #include "core/anatomy/point_lookup.h"
 #include "core/doctor/point_checks.h"
@@ -15,16 +16,6 @@
 
 namespace semblante {
 namespace {
-
-/// 12 degrees beyond sideways. The outer surface at these places has a forward component of 0.4 or more, even on a
-/// cheek or nose bone; a surface that faces backwards is behind it.
-constexpr double faces_away = -0.2;
-
-/// Points of the front of the face, whose outer surface faces forward. Excludes the inner rims of lips and lids, and
-/// the sides of the head.
-constexpr auto on_the_front = std::to_array<std::string_view>(
-    {"2.10", "2.11", "2.12", "4.1", "4.2", "4.3",  "4.4", "5.1", "5.2", "5.3",  "5.4",  "8.1",  "8.2",
-     "8.5",  "8.6",  "8.7",  "8.8", "8.9", "8.10", "9.3", "9.6", "9.7", "9.12", "9.13", "9.14", "11.1"});
 
 /// If this many points are on another part than the skin, the skin was cut; fewer are misplaced points.
 constexpr std::size_t points_of_a_piece = 3;
@@ -139,8 +130,7 @@ void find_wrong_parts(const Subject& head, std::span<const SurfacePoint> points,
 void find_points_on_the_inside(const Subject& head, std::span<const SurfacePoint> points, std::vector<Finding>& out) {
   std::map<std::uint32_t, glm::dvec3> normals;
   for (const SurfacePoint& point : points) {
-    if (std::find(on_the_front.begin(), on_the_front.end(), to_string(point.id)) != on_the_front.end())
-      normals[point.vertex.value()] = glm::dvec3(0.0);
+    if (is_on_front(point.id)) normals[point.vertex.value()] = glm::dvec3(0.0);
   }
   std::vector<bool> wanted(head.surface.vertex_count(), false);
   for (const auto& [vertex, normal] : normals) wanted[vertex] = true;

@@ -6,7 +6,9 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/anatomy/front_points.h"
 #include "core/geometry/insert_vertices.h"
+#include "core/geometry/triangle_shape.h"
 
 namespace semblante {
 namespace {
@@ -37,6 +39,12 @@ FaceSurface::FaceSurface(const Surface& surface, std::span<const Part> parts, co
     std::transform(t.begin(), t.end(), mapped.begin(), [&](std::uint32_t v) { return surface.surface_of[v].value(); });
   }
   nearby_.emplace(corners_, triangles_);
+  std::vector<glm::dvec3> normals(places_.size(), glm::dvec3(0.0));
+  for (const Triangle& t : triangles_) {
+    const glm::dvec3 normal = area_vector(places_[t[0]], places_[t[1]], places_[t[2]]);
+    for (const std::uint32_t corner : t) normals[corner] += normal;
+  }
+  for (const glm::dvec3& normal : normals) faces_forward_.push_back(normal.z > faces_forward * glm::length(normal));
 }
 
 const std::vector<std::uint32_t>& FaceSurface::with_role(PartRole role) const {
@@ -63,10 +71,17 @@ std::optional<std::uint32_t> FaceSurface::nearest(PartRole role, const glm::dvec
   return best;
 }
 
-std::optional<glm::dvec3> FaceSurface::nearest_between(PartRole role, const glm::dvec3& place) const {
+std::optional<glm::dvec3> FaceSurface::nearest_between(PartRole role, const glm::dvec3& place,
+                                                       bool forward_only) const {
   if (!nearby_) return std::nullopt;
-  const TriangleTree::Hit hit =
-      nearby_->nearest(place, [&](std::uint32_t triangle) { return role_of_[triangles_[triangle][0]] == role; });
+  const auto may_have_it = [&](std::uint32_t triangle) {
+    const Triangle& t = triangles_[triangle];
+    if (role_of_[t[0]] != role) return false;
+    if (!forward_only) return true;
+    const glm::dvec3 normal = area_vector(places_[t[0]], places_[t[1]], places_[t[2]]);
+    return normal.z > faces_forward * glm::length(normal);
+  };
+  const TriangleTree::Hit hit = nearby_->nearest(place, may_have_it);
   if (!std::isfinite(hit.distance)) return std::nullopt;
   const Triangle& t = triangles_[hit.triangle];
   const glm::dvec3& a = places_[t[0]];

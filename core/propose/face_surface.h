@@ -28,6 +28,11 @@ class FaceSurface {
 
   [[nodiscard]] const Surface& surface() const { return surface_; }
   [[nodiscard]] const glm::dvec3& at(std::uint32_t vertex) const { return places_[vertex]; }
+  /// Whether the surface at a vertex faces forward (front_points.h), as the inner wall of a double surface does not
+  /// behind the face. Always without triangles.
+  [[nodiscard]] bool faces_forward_at(std::uint32_t vertex) const {
+    return faces_forward_.empty() || faces_forward_[vertex];
+  }
   /// Vertices of all parts with this role, increasing, without unused vertices.
   [[nodiscard]] const std::vector<std::uint32_t>& with_role(PartRole role) const;
 
@@ -38,7 +43,9 @@ class FaceSurface {
                                                      const MirrorPlane* on = nullptr, const Filter& filter = {}) const;
   /// The place on the triangles of the role that is nearest to `place`, where a point would get a vertex of its own;
   /// empty where it means a vertex (insert_vertices.h), where another part is as near, and without triangles.
-  [[nodiscard]] std::optional<glm::dvec3> nearest_between(PartRole role, const glm::dvec3& place) const;
+  /// `forward_only`: on triangles that face forward.
+  [[nodiscard]] std::optional<glm::dvec3> nearest_between(PartRole role, const glm::dvec3& place,
+                                                          bool forward_only) const;
   /// Hill climbing: the farthest vertex along `direction` reachable from `start` by ascending edges, at most `within`
   /// away; with a plane, along vertices on it. Tolerates ripples of one edge length.
   [[nodiscard]] std::uint32_t climb(std::uint32_t start, const glm::dvec3& direction, double within,
@@ -58,6 +65,7 @@ class FaceSurface {
   std::vector<glm::dvec3> places_;
   std::array<std::vector<std::uint32_t>, part_role_names.size()> by_role_;
   std::vector<PartRole> role_of_;       ///< #S
+  std::vector<bool> faces_forward_;     ///< #S, or empty
   std::vector<glm::vec3> corners_;      ///< #S, `places_` for the tree
   std::vector<Triangle> triangles_;     ///< into `corners_`
   std::optional<TriangleTree> nearby_;  ///< of `triangles_`, if there are any

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "core/anatomy/front_points.h"
 #include "core/anatomy/neck.h"
 #include "core/anatomy/point_lookup.h"
 #include "core/anatomy/point_order.h"
@@ -237,7 +238,7 @@ class Proposer {
     const double off =
         nearest ? glm::distance(face_.at(nearest->vertex), place) : std::numeric_limits<double>::infinity();
     if (off < of_a_vertex) return std::nullopt;
-    const auto between = face_.nearest_between(role, place);
+    const auto between = face_.nearest_between(role, place, is_on_front(id_of(id)));
     if (!between || !is_near(*between, place, error) || glm::distance(*between, place) > 0.5 * off) return std::nullopt;
     if (!order_bounds(id_of(id), settled_).contains(*between)) return std::nullopt;
     const bool is_free = std::none_of(settled_.begin(), settled_.end(), [&](const std::optional<glm::dvec3>& other) {
@@ -260,7 +261,12 @@ class Proposer {
     // On a coarse mesh the nearest vertex may be beyond a neighbour: a fold of a lid above the lid's edge. An order
     // that leaves nothing near the place is that of a misplaced point, which the doctor names.
     const OrderBounds bounds = order_bounds(id_of(id), settled_);
-    auto in_order = nearest([&](std::uint32_t v) { return is_free(v) && bounds.contains(face_.at(v)); });
+    const auto is_in_order = [&](std::uint32_t v) { return is_free(v) && bounds.contains(face_.at(v)); };
+    if (is_on_front(id_of(id))) {  // not on the inner wall of a double surface
+      auto outer = nearest([&](std::uint32_t v) { return is_in_order(v) && face_.faces_forward_at(v); });
+      if (outer && is_near(face_.at(outer->vertex), place, error)) return outer;
+    }
+    auto in_order = nearest(is_in_order);
     if (in_order && is_near(face_.at(in_order->vertex), place, error)) return in_order;
     auto out_of_order = nearest(is_free);
     if (out_of_order && out_of_order->doubt.empty())
