@@ -39,6 +39,7 @@ class EyeAlone {
     std::vector<Primitive> kept;
     std::vector<Triangle> triangles;
     std::vector<Triangle> uvs;
+    std::vector<Triangle> normals;
     for (const Primitive& primitive : model_.primitives) {
       Primitive run = primitive;
       run.first_triangle = static_cast<std::uint32_t>(triangles.size());
@@ -47,6 +48,7 @@ class EyeAlone {
         if (face_.role_of(model_.triangles[at][0]) != role) continue;
         triangles.push_back(model_.triangles[at]);
         uvs.push_back(model_.uv_triangles[at]);
+        if (!model_.normal_triangles.empty()) normals.push_back(model_.normal_triangles[at]);
       }
       run.triangle_count = static_cast<std::uint32_t>(triangles.size()) - run.first_triangle;
       if (run.triangle_count > 0) kept.push_back(run);
@@ -54,6 +56,7 @@ class EyeAlone {
     model_.primitives = kept;
     model_.triangles = triangles;
     model_.uv_triangles = uvs;
+    model_.normal_triangles = normals;
     camera_.target = painted_.pivot;
     camera_.eye = painted_.pivot + glm::vec3(0.0F, 0.0F, 20.0F * painted_.iris_radius);
     camera_.near_plane = 5.0F * painted_.iris_radius;
