@@ -50,6 +50,10 @@ Result<Model> to_model(runtime::FaceMesh&& mesh, const RigDocument& rig) {
   if (!model.uvs.empty()) {
     model.uv_triangles = model.triangles;
   }
+  model.normals = std::move(mesh.normals);
+  if (!model.normals.empty()) {
+    model.normal_triangles = model.triangles;
+  }
   return model;
 }
 
