@@ -167,9 +167,12 @@ class Reader {
     return std::nullopt;
   }
   /// `bytes`: of the tag as it is written.
-  void open(std::string tag, std::string closing, std::size_t bytes, std::uint8_t expression, double intensity) {
+  std::optional<Error> open(std::string tag, std::string closing, std::size_t bytes, std::uint8_t expression,
+                            double intensity) {
+    if (open_.size() == max_nested_spans) return fail("spans nest deeper than " + std::to_string(max_nested_spans));
     open_.push_back({std::move(tag), std::move(closing), text_.substr(at_, bytes), marked_.emotions.size()});
     marked_.emotions.push_back({expression, intensity, {characters_, 0}});
+    return std::nullopt;
   }
 
   std::optional<Error> take(const Tag& tag) {
@@ -179,7 +182,7 @@ class Reader {
     } else {
       const auto intensity = tag.intensity.empty() ? 1.0 : read_intensity(tag.intensity);
       if (!intensity) return fail("the intensity of [" + name + "] must be 0 to 1");
-      open("[" + name + "]", "[/" + name + "]", tag.bytes, tag.expression, *intensity);
+      if (auto fault = open("[" + name + "]", "[/" + name + "]", tag.bytes, tag.expression, *intensity)) return fault;
     }
     at_ += tag.bytes;
     return std::nullopt;
@@ -196,7 +199,7 @@ class Reader {
       if (!emotion) return fail(emotion.error().message);
       if (tag->is_empty || tag->attributes.size() != (tag->attribute("intensity") ? 2U : 1U))
         return fail(name + " has only a name and an intensity, and a text in it");
-      open(name, "</emotion>", tag->bytes, emotion->expression, emotion->intensity);
+      if (auto fault = open(name, "</emotion>", tag->bytes, emotion->expression, emotion->intensity)) return fault;
     }
     at_ += tag->bytes;
     return std::nullopt;

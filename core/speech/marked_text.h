@@ -28,11 +28,14 @@ int expression_of(std::string_view name);
 /// "neutral", then the expressions in the order of their numbers.
 std::vector<std::string> emotion_names();
 
+inline constexpr std::size_t max_nested_spans = 16;
+
 /// Takes the marks out of a text: spans "[joy]...[/joy]", with an intensity "[joy 0.5]...[/joy]", or
-/// <emotion name="joy" intensity="0.5">...</emotion>, which nest; emoticons (":)", ":-(") and emoji. A smiley colours
-/// the sentence that it stands in, or ends; before the first word, the first one. Brackets with other words in them are
-/// text. Errors name the byte: a span that is not closed, or closed and not open; an intensity that is not 0 to 1; what
-/// is not UTF-8. Of a text without words the emotions have no range, and are kept.
+/// <emotion name="joy" intensity="0.5">...</emotion>, which nest up to `max_nested_spans`
+/// deep; emoticons (":)", ":-(") and emoji. A smiley colours the sentence that it stands in, or ends; before the first
+/// word, the first one. Brackets with other words in them are text. Errors name the byte: a span that is not closed, or
+/// closed and not open, or too deep; an intensity that is not 0 to 1; what is not UTF-8. Of a text without words the
+/// emotions have no range, and are kept.
 Result<MarkedText> read_marked_text(std::string_view text);
 
 /// Whether a text without its marks has nothing to say: spaces alone.

@@ -74,7 +74,8 @@ PerformanceScript speech_performance(const Utterance& utterance, std::span<const
   script.name = options.name;
   script.idle = IdleLife{.seed = options.seed, .blinks_per_minute = 0.0};
 
-  std::vector<Interval> expressive, brows_taken;
+  // Smileys in a row, or spans around the same words, are one mood: the strongest of its kind.
+  std::vector<Cue> moods;
   for (const EmotionSpan& span : emotions) {
     if (span.expression == 0 || span.intensity <= 0.0) continue;
     const auto said = time_of(span.range, utterance, segments);
@@ -87,9 +88,20 @@ PerformanceScript speech_performance(const Utterance& utterance, std::span<const
     cue.release = std::floor(std::min(emotion_release_ms, 0.6 * *cue.duration));
     cue.target = ExpressionTarget{span.expression};
     cue.value = span.intensity;
+    const auto same = std::find_if(moods.begin(), moods.end(), [&cue](const Cue& mood) {
+      return mood.time == cue.time && mood.duration == cue.duration &&
+             std::get<ExpressionTarget>(mood.target).expression == std::get<ExpressionTarget>(cue.target).expression;
+    });
+    if (same == moods.end())
+      moods.push_back(std::move(cue));
+    else
+      same->value = std::max(same->value, cue.value);
+  }
+  std::vector<Interval> expressive, brows_taken;
+  for (Cue& cue : moods) {
     const Interval interval = {cue.time, cue.time + *cue.duration};
     expressive.push_back(interval);
-    if (moves_brows(span.expression)) brows_taken.push_back(interval);
+    if (moves_brows(std::get<ExpressionTarget>(cue.target).expression)) brows_taken.push_back(interval);
     add_corners(cue, script.cues);
     script.cues.push_back(std::move(cue));
   }

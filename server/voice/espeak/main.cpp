@@ -12,6 +12,7 @@
 #include <sys/resource.h>
 
 #include "server/jobs/isolation.h"
+#include "server/voice/espeak/dictionaries.h"
 #include "server/voice/espeak/phoneme_trace.h"
 #include "server/voice/program.h"
 #include "server/voice/voice_protocol.h"
@@ -37,6 +38,7 @@ void say_event(const espeak_EVENT& event) {
   switch (event.type) {
     case espeakEVENT_PHONEME: {
       const std::string symbol(event.id.string, ::strnlen(event.id.string, sizeof event.id.string));
+      if (symbol.starts_with('(')) break;  // the name of the language that the next phonemes are of
       say(line_of(SpokenPhoneme{time, symbol, speaking.trace->stress_of(symbol)}));
       break;
     }
@@ -161,6 +163,7 @@ int run() {
   speaking.most_samples = static_cast<std::size_t>(max_seconds * rate);
   const char* data = nullptr;
   const std::string name = std::string("espeak-ng ") + espeak_Info(&data);
+  keep_dictionaries(data);
   // The text is a stranger's: from here on the library reads it.
   if (const auto fault = isolate(); !fault.empty()) return refuse(fault);
 

@@ -65,6 +65,20 @@ TEST(MarkedText, BrokenMarks_AreErrorsWithTheirPlace) {
   EXPECT_NE(read_marked_text("ab[/joy]").error().message.find("byte 2"), std::string::npos);
 }
 
+TEST(MarkedText, SpansNestSixteenDeep) {
+  const auto nested = [](std::size_t depth) {
+    std::string text = "a";
+    for (std::size_t i = 0; i < depth; ++i)
+      text = i % 2 == 0 ? "[joy]" + text + "[/joy]" : "<emotion name='anger'>" + text + "</emotion>";
+    return text;
+  };
+  EXPECT_EQ(read_marked_text(nested(max_nested_spans))->emotions.size(), max_nested_spans);
+  const auto deeper = read_marked_text(nested(max_nested_spans + 1));
+  ASSERT_FALSE(deeper.ok());
+  EXPECT_EQ(deeper.error().where, "text");
+  EXPECT_NE(deeper.error().message.find("nest deeper than 16"), std::string::npos);
+}
+
 TEST(MarkedText, FirstPart_IsTheFirstSentences_AndBothKeepTheirMarks) {
   const auto parts = [](std::string_view text) {
     const auto cut = first_part(text);

@@ -148,6 +148,16 @@ TEST(Speech, Emotion_BeginsBeforeItsWord_AndDiesAway) {
   EXPECT_EQ(performance(said, "en").frame_at(600).expression1, 0);
 }
 
+TEST(Speech, HundredsOfTheSameSmiley_AreOneMood_TheStrongest) {
+  const auto said = utterance({{500, "a"}, {700, ""}}, 1600);
+  std::vector<EmotionSpan> moods(500, {1, 0.5, {0, 3}});
+  moods.push_back({1, 0.9, {0, 3}});
+  moods.push_back({1, 0.2, {0, 3}});
+  const auto many = performance(said, "en", moods), one = performance(said, "en", {{1, 0.9, {0, 3}}});
+  for (double ms = 0.0; ms < 1600.0; ms += 50.0)
+    EXPECT_EQ(many.frame_at(ms).intensity1, one.frame_at(ms).intensity1) << ms;
+}
+
 /// The mouth by Eq. 5 and its corners' FAPs in FAP units: heights of 2.4 and 8.3, and the height of 2.2.
 std::array<double, 3> heights(const semblante_frame& frame) {
   const auto y = [](const DisplacementSet& set, std::string_view point) {
