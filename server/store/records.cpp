@@ -73,7 +73,7 @@ std::string artefact_name(std::size_t lod, std::string_view name) {
 
 std::string timestamp_now() {
   const auto since = std::chrono::system_clock::now().time_since_epoch();
-  return timestamp(std::chrono::duration_cast<std::chrono::milliseconds>(since).count());
+  return timestamp(std::max<std::int64_t>(0, std::chrono::duration_cast<std::chrono::milliseconds>(since).count()));
 }
 
 std::string timestamp_of(std::int64_t seconds) { return timestamp(seconds * 1000); }

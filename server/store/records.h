@@ -285,7 +285,7 @@ inline bool is_final(JobState state) { return state != JobState::queued && state
 std::vector<FeaturePointRecord> with_proposals(std::vector<FeaturePointRecord> current,
                                                const std::vector<FeaturePointRecord>& proposals);
 
-/// Now, as RFC 3339 in UTC with milliseconds.
+/// Now, as RFC 3339 in UTC with milliseconds; the beginning of 1970 by a clock that is set before.
 std::string timestamp_now();
 /// The same form, of seconds since 1970.
 std::string timestamp_of(std::int64_t seconds);

@@ -25,7 +25,8 @@ std::uint64_t media_time_at(std::chrono::steady_clock::time_point began, std::ch
 }
 
 double server_time_now() {
-  return std::chrono::duration<double, std::milli>(std::chrono::system_clock::now().time_since_epoch()).count();
+  return std::max(
+      0.0, std::chrono::duration<double, std::milli>(std::chrono::system_clock::now().time_since_epoch()).count());
 }
 
 Result<std::uint64_t> Timeline::place_now(std::uint64_t now, const std::vector<TimedFrame>& frames) {

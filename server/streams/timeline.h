@@ -19,7 +19,7 @@ inline constexpr std::uint64_t most_behind = 1'000;
 /// The stream's clock: whole ms since its start; 0 before the start.
 std::uint64_t media_time_at(std::chrono::steady_clock::time_point began, std::chrono::steady_clock::time_point when);
 
-/// ms since 1970-01-01 UTC.
+/// ms since 1970-01-01 UTC; 0 by a clock that is set before.
 double server_time_now();
 
 /// Assigns media times on the stream's clock, whole ms, to the frames of all sources. Media time never decreases from

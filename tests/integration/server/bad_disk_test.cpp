@@ -4,6 +4,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
+#include <regex>
 #include <sched.h>
 
 #include <gmock/gmock.h>
@@ -233,7 +234,7 @@ TEST_F(SetClock, Back_LosesNothing_AndKeepsTheOrder) {
       after = "&after=" + page["next"].get<std::string>();
     }
   };
-  for (const long clock : {0L, -40 * days, -80 * days, 20 * days, 0L}) {
+  for (const long clock : {0L, -40 * days, -80 * days, 20 * days, -30'000 * days /* before 1970 */, 0L}) {
     SCOPED_TRACE(clock / days);
     set(clock);
     ServerProcess server(data());
@@ -249,7 +250,11 @@ TEST_F(SetClock, Back_LosesNothing_AndKeepsTheOrder) {
     const Fields if_match = {{"Content-Type", "application/json"}, {"If-Match", tag}};
     EXPECT_EQ(request(port, "PATCH", first, R"({"name":"A"})", if_match).status, 200);
     EXPECT_EQ(request(port, "PATCH", first, R"({"name":"B"})", if_match).status, 412);
-    request(port, "POST", "/v1/streams", R"({"name":"talk"})", json_type);
+    const auto stream = json_of(request(port, "POST", "/v1/streams", R"({"name":"talk"})", json_type));
+    EXPECT_TRUE(
+        std::regex_match(stream["created"].get<std::string>(), std::regex(R"(\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d\.\d{3}Z)")))
+        << stream["created"];
+    EXPECT_LT(stream["epoch"].get<std::uint64_t>(), std::uint64_t{1} << 53U) << "JavaScript's whole numbers";
     const std::string id = json_of(request(port, "POST", "/v1/streams/talk/recordings"))["id"];
     for (int i = 0; i < 3; ++i)
       EXPECT_EQ(request(port, "POST", "/v1/streams/talk/frames", R"({"frames":[{"faps":{"3":80}}]})", json_type).status,
