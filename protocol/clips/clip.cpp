@@ -55,8 +55,8 @@ class KernelFace {
 };
 
 double quantum_of(const PackedFace& face) {
-  const glm::vec3 size = face.rig.bounds_max - face.rig.bounds_min;
-  return static_cast<double>(std::max({size.x, size.y, size.z})) / ((1 << position_bits) - 1);
+  const float side = longest_side(face.rig.bounds_min, face.rig.bounds_max);
+  return static_cast<double>(side) / ((1 << position_bits(side, face.rig.fapu)) - 1);
 }
 
 /// Distance of the farthest vertex from `pivot` among those for which `takes_part` is true.

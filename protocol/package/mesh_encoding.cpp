@@ -62,18 +62,12 @@ Status check_decoded(const RenderMesh& mesh, const Decoded& decoded, std::span<c
   if (canonical(decoded.triangles, decoded.file_vertex) != canonical(mesh.triangles, mesh.file_vertex)) {
     return Error{ErrorCode::internal, "mesh.drc", "triangles were lost or changed by the encoding"};
   }
-  glm::vec3 low(mesh.positions[0]);
-  glm::vec3 high(mesh.positions[0]);
-  for (const glm::vec3& p : mesh.positions) {
-    low = glm::min(low, p);
-    high = glm::max(high, p);
-  }
+  const auto [low, high] = bounds_of(mesh);
   // Draco divides the longest side of the box into 2^bits - 1 steps; rounding errs by half a step, float32 by a little.
-  const glm::vec3 size = high - low;
-  const float side = std::max({size.x, size.y, size.z});
   const float reach = std::max(
       {std::abs(low.x), std::abs(low.y), std::abs(low.z), std::abs(high.x), std::abs(high.y), std::abs(high.z)});
-  const float tolerance = 0.51F * side / static_cast<float>((1 << position_bits) - 1) + 4e-7F * reach;
+  const float tolerance =
+      0.51F * longest_side(low, high) / static_cast<float>((1 << mesh.position_bits) - 1) + 4e-7F * reach;
   for (std::size_t v = 0; v < decoded.positions.size(); ++v) {
     const glm::vec3& original = file_positions[decoded.file_vertex[v]];
     for (int c = 0; c < 3; ++c) {
@@ -112,7 +106,7 @@ Result<EncodedMesh> encode_mesh(const RenderMesh& mesh) {
   EncodedMesh out;
   std::vector<DracoAttribute> attributes;
   attributes.push_back(
-      {Kind::position, Type::float32, 3, std::as_bytes(std::span(positions)), value_of_point, position_bits});
+      {Kind::position, Type::float32, 3, std::as_bytes(std::span(positions)), value_of_point, mesh.position_bits});
   attributes.push_back({Kind::normal, Type::float32, 3, std::as_bytes(std::span(mesh.normals)), {}, normal_bits});
   if (!mesh.uvs.empty()) {
     out.attributes.uv = static_cast<std::uint32_t>(attributes.size());

@@ -27,7 +27,7 @@ std::vector<SliceAttribute> geometry_attributes(const RenderMesh& mesh, const Sl
   using Type = DracoAttribute::Type;
   std::vector<SliceAttribute> attributes;
   attributes.push_back(
-      {"POSITION", Kind::position, Type::float32, 3, position_bits,
+      {"POSITION", Kind::position, Type::float32, 3, mesh.position_bits,
        gather<float>(slice, 3, [&](auto v, auto c) { return mesh.positions[v][static_cast<int>(c)]; })});
   if (!mesh.normals.empty()) {
     attributes.push_back(

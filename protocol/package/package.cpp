@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <tuple>
 #include <utility>
 
 #include "core/expressions/companions.h"
@@ -145,6 +146,10 @@ Result<Draft> encode(RenderMesh mesh, const Rig& rig, std::vector<Part> parts, i
   Draft draft;
   draft.mesh = std::move(mesh);
   draft.parts = std::move(parts);
+  if (!draft.mesh.positions.empty()) {
+    const auto [low, high] = bounds_of(draft.mesh);
+    draft.mesh.position_bits = position_bits(longest_side(low, high), rig.fapu);
+  }
   auto encoded = encode_mesh(draft.mesh);
   if (!encoded) return encoded.error();
   draft.encoded = std::move(*encoded);
@@ -203,11 +208,7 @@ void describe_level(const Draft& draft, const Surface& surface, const Rig& rig, 
   for (const Part& part : draft.parts) {
     document.parts.push_back({part.name, part.role, part.vertex_count, part.triangle_count});
   }
-  document.bounds_min = document.bounds_max = draft.mesh.positions[0];
-  for (const glm::vec3& p : draft.mesh.positions) {
-    document.bounds_min = glm::min(document.bounds_min, p);
-    document.bounds_max = glm::max(document.bounds_max, p);
-  }
+  std::tie(document.bounds_min, document.bounds_max) = bounds_of(draft.mesh);
 }
 
 Status finish(Draft& draft, const Model& model, const Rig& rig, const MaterialAssignment& materials,

@@ -54,4 +54,13 @@ RenderMesh make_render_mesh(const Model& model, const Surface& surface,
   return mesh;
 }
 
+std::pair<glm::vec3, glm::vec3> bounds_of(const RenderMesh& mesh) {
+  glm::vec3 low = mesh.positions[0], high = low;
+  for (const glm::vec3& p : mesh.positions) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+  return {low, high};
+}
+
 }  // namespace semblante

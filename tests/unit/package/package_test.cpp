@@ -171,6 +171,26 @@ TEST(EncodeMesh, DecodedOrder_NamesTheFileVertexOfEveryPosition) {
   EXPECT_THAT(encoded->file_vertex, testing::Not(testing::Contains(side * side + 1))) << "the unused vertex is dropped";
 }
 
+TEST(Package, VertexLeftFarAway_DoesNotCoarsenTheFace) {
+  Model model = make_model();
+  constexpr double es_unit = 2.0 / 1024.0;
+  model.positions[0].x = -5000.0F;
+  const Surface surface = build_surface(model);
+  Rig rig = make_rig(model);
+  rig.fapu.value[static_cast<std::size_t>(FapuUnit::es)] = es_unit;
+  const auto package = build_package(model, surface, rig, {"Grid", 12, {}, {}});
+  ASSERT_TRUE(package.ok()) << package.error().message;
+  const auto decoded = DracoMesh::decode(package->mesh_drc.bytes);
+  ASSERT_TRUE(decoded.ok());
+  const auto positions = decoded->vectors3(0);
+  ASSERT_TRUE(positions.ok());
+  for (const glm::vec3& position : *positions) {
+    float nearest = std::numeric_limits<float>::max();
+    for (const glm::vec3& original : model.positions) nearest = std::min(nearest, glm::distance(position, original));
+    EXPECT_LE(nearest, 2.0 * es_unit) << "half a step of two units, on each of three axes";
+  }
+}
+
 TEST(EncodeMesh, NoTriangles_IsRefused) {
   const auto encoded = encode_mesh(RenderMesh{});
   ASSERT_FALSE(encoded.ok());
