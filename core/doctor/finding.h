@@ -59,6 +59,8 @@ enum class FindingCode : std::uint8_t {
   duplicate_triangles,
   degenerate_triangles,
   unused_vertices,
+  far_vertices,
+  coarse_coordinates,
 };
 inline constexpr std::array finding_code_names = std::to_array<std::string_view>({
     "upside-down",
@@ -99,6 +101,8 @@ inline constexpr std::array finding_code_names = std::to_array<std::string_view>
     "duplicate-triangles",
     "degenerate-triangles",
     "unused-vertices",
+    "far-vertices",
+    "coarse-coordinates",
 });
 constexpr std::string_view to_string(FindingCode code) { return finding_code_names[static_cast<std::size_t>(code)]; }
 

@@ -35,4 +35,7 @@ std::vector<Finding> find_idle_parts(const Subject& head);
 /// Holes in the skin near its points.
 std::vector<Finding> find_holes(const Subject& head);
 
+/// A head so far from the origin that its coordinates are coarse, and vertices far from the face.
+std::vector<Finding> find_far_reach(const Subject& head);
+
 }  // namespace semblante

@@ -265,6 +265,22 @@ std::vector<Defect> make_defects() {
     return Expected{ids({"2.2", "2.3"}), place(h, "2.2"), {}};
   });
 
+  // ---- far away
+  add("lash_left_behind", Code::far_vertices, [](Head& h) {
+    begin_primitive(h, "lash");
+    const glm::dvec3 at = place(h, "3.1") + unit(h) * glm::dvec3(150.0, 0.0, 0.0);
+    const std::uint32_t stray = add_vertex(h, at);
+    const std::uint32_t near = vertex(h, "3.1");
+    add_triangle(h, {near, neighbor(h, near), stray});
+    return Expected{{}, at, {}, "left behind"};
+  });
+  add("far_from_the_origin", Code::coarse_coordinates, [](Head& h) {
+    const auto by = glm::vec3(glm::dvec3(1e5 * unit(h), 0.0, 0.0));
+    for (glm::vec3& position : h.model.positions) position += by;
+    for (FeaturePoint& point : h.points) point.position += by;
+    return Expected{{}, {}, {}, "far from the origin"};
+  });
+
   // ---- parts and borders
   add("skin_cut_below_the_nose", Code::skin_in_pieces, [](Head& h) {
     const double level = 0.5 * (place(h, "9.15").y + place(h, "8.1").y);
