@@ -21,7 +21,13 @@ Result<Image> ImageReader::read(std::vector<std::uint8_t> bytes) {
   const std::string_view type = image_type(bytes);
   if (type == "image/png" || type == "image/jpeg") {
     const auto size = declared_size(bytes);
-    if (size && (size->width > limits_.max_image_side || size->height > limits_.max_image_side)) {
+    if (!size || size->width == 0 || size->height == 0) {
+      return Error{ErrorCode::malformed, "",
+                   "is a " + std::string(type == "image/png" ? "PNG" : "JPEG") +
+                       (size ? " of " + in_words(*size) + " pixels" : " without a whole header") +
+                       ", of which nothing can be shown"};
+    }
+    if (size->width > limits_.max_image_side || size->height > limits_.max_image_side) {
       return Error{ErrorCode::too_large, "",
                    "is an image of " + in_words(*size) + " pixels, more than " +
                        std::to_string(limits_.max_image_side) + " along a side"};

@@ -14,8 +14,9 @@ class ImageReader {
  public:
   explicit ImageReader(const ImportLimits& limits) : limits_(limits), pixels_left_(limits.max_decoded_pixels) {}
 
-  /// PNG and JPEG, told by their content, as they are; WebP converted (webp.h). An error for anything else or for more
-  /// than the limits; its message continues a sentence that begins with the image's name ("is ...").
+  /// PNG and JPEG, told by their content, as they are, if their header declares a size; WebP converted (webp.h). An
+  /// error for anything else or for more than the limits; its message continues a sentence that begins with the image's
+  /// name ("is ...").
   Result<Image> read(std::vector<std::uint8_t> bytes);
 
  private:

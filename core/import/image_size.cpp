@@ -1,6 +1,9 @@
 #include "core/import/image_size.h"
 
+#include <string_view>
+
 #include "core/import/image_type.h"
+#include "core/import/text.h"
 
 namespace semblante::import {
 namespace {
@@ -17,7 +20,8 @@ std::size_t number(Bytes bytes) {
 /// IHDR is the first chunk of every PNG (W3C PNG, 11.2.1).
 std::optional<ImageSize> size_of_png(Bytes bytes) {
   constexpr std::size_t width_at = 16, height_at = 20, end = 24;
-  if (bytes.size() < end) return std::nullopt;
+  constexpr std::string_view beginning("\x89PNG\r\n\x1A\n\0\0\0\x0DIHDR", width_at);
+  if (bytes.size() < end || as_text(bytes.subspan(0, width_at)) != beginning) return std::nullopt;
   return ImageSize{number(bytes.subspan(width_at, 4)), number(bytes.subspan(height_at, 4))};
 }
 

@@ -13,7 +13,7 @@ struct ImageSize {
 };
 
 /// The size that the header of a PNG or a JPEG declares, each side below 2^32; nullopt for other bytes, and for an
-/// image without a complete header, of which viewers show nothing. Nothing is decoded.
+/// image without a complete header. Nothing is decoded.
 std::optional<ImageSize> declared_size(std::span<const std::uint8_t> bytes);
 
 }  // namespace semblante::import

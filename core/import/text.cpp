@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/types/printable.h"
+
 namespace semblante::import {
 namespace {
 
@@ -50,10 +52,9 @@ std::string_view next_token(std::string_view& rest) {
 
 std::string shown(std::string_view token) {
   constexpr std::size_t max_shown = 40;
-  std::string text = "'";
-  for (const char c : token.substr(0, max_shown)) text += c >= ' ' && c <= '~' ? c : '?';
-  if (token.size() > max_shown) text += "...";
-  return text + "'";
+  std::size_t end = 0;
+  while (end < token.size() && end + utf8_step(token.substr(end)) <= max_shown) end += utf8_step(token.substr(end));
+  return "'" + printable(token.substr(0, end)) + (end < token.size() ? "...'" : "'");
 }
 
 std::optional<std::string_view> LineReader::next() {

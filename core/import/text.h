@@ -20,7 +20,7 @@ NumberFault parse_number(std::string_view token, float& value);
 /// The next run of characters other than blanks; empty at the end. Advances `rest`.
 std::string_view next_token(std::string_view& rest);
 
-/// "'abc'", made safe for display: truncated to 40 characters, control characters and bytes above 126 as '?'.
+/// "'abc'", made safe for display: truncated to 40 bytes, control characters and bytes that are no UTF-8 as '?'.
 std::string shown(std::string_view token);
 
 /// Lines with LF, CRLF or CR ends, numbered from 1.

@@ -112,7 +112,7 @@ GltfWriter textured(const nlohmann::json& base, const nlohmann::json& normal) {
   writer.add_quad();
   writer.primitive()["attributes"]["TEXCOORD_0"] = writer.floats({0, 0, 1, 0, 1, 1, 0, 1}, "VEC2");
   writer.primitive()["material"] = 0;
-  const auto image = writer.view({0x89, 'P', 'N', 'G'});
+  const auto image = writer.view(png_of(4, 4));
   writer.json["images"] = {{{"bufferView", image}, {"mimeType", "image/png"}}};
   writer.json["textures"] = {{{"source", 0}}};
   const auto info = [](const nlohmann::json& transform) {

@@ -351,13 +351,13 @@ TEST(Gltf, NormalizedIntegers_BecomeFractions) {
 
 TEST(Gltf, Images_AreKeptAsTheyAre_AndOthersLeftOutWithAWarning) {
   Bytes binary = quad_gltf_binary();
-  const Bytes png = {0x89, 'P', 'N', 'G', 1, 2, 3, 4};
+  const Bytes png = png_of(4, 4);
   binary.insert(binary.end(), png.begin(), png.end());
   std::string json = replaced(quad_gltf_json(), R"("buffers":[{"byteLength":92}])",
-                              R"("buffers":[{"byteLength":100}],"textures":[{"source":0},{"source":1}],
+                              R"("buffers":[{"byteLength":116}],"textures":[{"source":0},{"source":1}],
       "images":[{"bufferView":3,"mimeType":"image/jpeg"},{"uri":"skin.png"}])");
   json = replaced(json, R"("byteOffset":80,"byteLength":12})",
-                  R"("byteOffset":80,"byteLength":12},{"buffer":0,"byteOffset":92,"byteLength":8})");
+                  R"("byteOffset":80,"byteLength":12},{"buffer":0,"byteOffset":92,"byteLength":24})");
   json = replaced(json, R"("baseColorFactor")", R"("baseColorTexture":{"index":0},"baseColorFactor")");
   json = replaced(json, R"({"name":"skin",)", R"({"name":"skin","normalTexture":{"index":1},)");
   const auto model = import_model(make_glb(json, binary), ModelFormat::glb);

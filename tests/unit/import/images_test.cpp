@@ -9,7 +9,7 @@
 namespace semblante::test {
 namespace {
 
-const Bytes png = {0x89, 'P', 'N', 'G', 1, 2, 3, 4};
+const Bytes png = png_of(4, 4);
 
 struct Pixels {
   int width = 0, height = 0, channels = 0;
@@ -129,14 +129,6 @@ TEST(Images, OfKtx2_ThatAFileRequires_AreAWarning) {
   EXPECT_TRUE(model->materials[0].is_color_lost);
 }
 
-/// The header of a PNG, and nothing of its pixels.
-Bytes png_of(std::uint32_t width, std::uint32_t height) {
-  Bytes png = to_bytes(std::string_view("\x89PNG\r\n\x1A\n\0\0\0\x0DIHDR", 16));
-  for (const std::uint32_t side : {width, height})
-    for (int shift = 24; shift >= 0; shift -= 8) png.push_back(static_cast<std::uint8_t>(side >> shift));
-  return png;
-}
-
 /// A JPEG up to the size of its frame, behind a comment and fill bytes.
 Bytes jpeg_of(std::uint16_t width, std::uint16_t height) {
   Bytes jpeg = to_bytes(std::string_view("\xFF\xD8\xFF\xFE\0\x04hi\xFF\xFF\xFF\xC2\0\x11\x08", 15));
@@ -155,9 +147,20 @@ TEST(Images, LargerThanViewersCanShow_AreLeftOut) {
   import::ImageReader reader{ImportLimits {}};
   EXPECT_TRUE(reader.read(png_of(8192, 8192)));
   EXPECT_TRUE(reader.read(jpeg_of(8192, 8192)));
-  for (const Bytes& whole : {png_of(60'000, 60'000), jpeg_of(60'000, 60'000)}) {
+}
+
+TEST(Images, WithoutASize_AreLeftOut) {
+  const std::string nothing = ", of which nothing can be shown; it is omitted";
+  EXPECT_EQ(warning_of(png_of(0, 0)), "image 0 is a PNG of 0 x 0 pixels" + nothing);
+  EXPECT_EQ(warning_of(png_of(8, 0)), "image 0 is a PNG of 8 x 0 pixels" + nothing);
+  EXPECT_EQ(warning_of(jpeg_of(0, 8)), "image 0 is a JPEG of 0 x 8 pixels" + nothing);
+  EXPECT_EQ(warning_of(to_bytes("\x89PNG, it says, and more than twenty four bytes")),
+            "image 0 is a PNG without a whole header" + nothing);
+  import::ImageReader reader{ImportLimits {}};
+  for (const Bytes& whole : {png_of(64, 64), jpeg_of(64, 64)}) {
+    EXPECT_TRUE(reader.read(whole));
     for (std::size_t size = 8; size < whole.size(); ++size)
-      EXPECT_TRUE(reader.read(Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)))) << size;
+      EXPECT_FALSE(reader.read(Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)))) << size;
   }
 }
 

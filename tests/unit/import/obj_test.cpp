@@ -150,5 +150,16 @@ TEST(Obj, Triangles_OverTheLimit_AreRefused_BeforeTheyAreMade) {
   EXPECT_EQ(model.error().where, "line 4");
 }
 
+TEST(Obj, ErrorsShowOtherAlphabets_ButNoControlCharacters) {
+  const auto message = [](const std::string& token) {
+    const auto model = import_model(to_bytes("v 0 0 " + token + "\n"), ModelFormat::obj);
+    return model ? std::string() : model.error().message;
+  };
+  EXPECT_NE(message("\u00E9\u4F60").find("'\u00E9\u4F60'"), std::string::npos) << message("\u00E9\u4F60");
+  EXPECT_NE(message("\x1B[31m\xFF").find("'?[31m?'"), std::string::npos) << message("\x1B[31m\xFF");
+  std::string long_name(39, 'a');
+  EXPECT_NE(message(long_name + "\u00E9").find("'" + long_name + "...'"), std::string::npos) << "no half a character";
+}
+
 }  // namespace
 }  // namespace semblante::test

@@ -281,13 +281,12 @@ TEST(Zip, Glb_Alone_IsRead) {
 }
 
 TEST(Zip, Obj_WithItsMaterialsAndImages_IsReadWhole) {
-  const std::string png = "\x89PNG and so on";
+  const Bytes png = png_of(4, 4);
   const std::string mtl =
       "# exported\nnewmtl skin\nKd 0.5 0.25 1.5\nd 0.5\nmap_Kd -s 1 1 1 -bm 0.5 C:\\heads\\Skin Colour.png\n"
       "newmtl other\nKd 1 0 0\nPr 0.25\nmap_Kd gone.png\nmap_Kd ../../etc/passwd\n";
   const auto model = import_model(
-      make_zip(
-          {{"a/head.obj", quad_obj()}, {"a/quad.mtl", to_bytes(mtl)}, {"a/textures/skin colour.PNG", to_bytes(png)}}),
+      make_zip({{"a/head.obj", quad_obj()}, {"a/quad.mtl", to_bytes(mtl)}, {"a/textures/skin colour.PNG", png}}),
       ModelFormat::gltf_zip);
   ASSERT_TRUE(model) << model.error().message;
   EXPECT_EQ(model->format, "obj");
@@ -297,7 +296,7 @@ TEST(Zip, Obj_WithItsMaterialsAndImages_IsReadWhole) {
   EXPECT_EQ(skin.base_color, glm::vec4(1, 1, 1, 0.5F)) << "the texture's colour, the file's opacity";
   EXPECT_EQ(skin.alpha_mode, Material::AlphaMode::blend);
   ASSERT_EQ(skin.base_color_image, 0);
-  EXPECT_EQ(model->images[0].bytes, to_bytes(png));
+  EXPECT_EQ(model->images[0].bytes, png);
   EXPECT_EQ(model->images[0].mime_type, "image/png");
   EXPECT_EQ(model->warnings.size(), 2U) << "gone.png and the path out of the zip";
 }
@@ -325,10 +324,9 @@ TEST(Zip, MaterialFile_LooksForSoManyImagesOnly) {
     std::string text = "newmtl skin\n";
     for (int i = 0; i < missing; ++i) text += "map_Kd " + std::to_string(i) + ".png\n";
     text += "map_Kd there.png\n";
-    const auto model = import_model(make_zip({{"head.obj", quad_obj()},
-                                              {"quad.mtl", to_bytes(text)},
-                                              {"there.png", to_bytes(std::string("\x89PNG\r\n\x1A\n"))}}),
-                                    ModelFormat::gltf_zip);
+    const auto model =
+        import_model(make_zip({{"head.obj", quad_obj()}, {"quad.mtl", to_bytes(text)}, {"there.png", png_of(4, 4)}}),
+                     ModelFormat::gltf_zip);
     return model->images.size();
   };
   EXPECT_EQ(images_after(1000), 1U);

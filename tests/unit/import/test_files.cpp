@@ -24,6 +24,13 @@ Bytes joined(std::string_view head, const Bytes& body) {
 
 Bytes to_bytes(std::string_view text) { return {text.begin(), text.end()}; }
 
+Bytes png_of(std::uint32_t width, std::uint32_t height) {
+  Bytes png = to_bytes(std::string_view("\x89PNG\r\n\x1A\n\0\0\0\x0DIHDR", 16));
+  for (const std::uint32_t side : {width, height})
+    for (int shift = 24; shift >= 0; shift -= 8) png.push_back(static_cast<std::uint8_t>(side >> shift));
+  return png;
+}
+
 Bytes make_glb(std::string_view json, const Bytes& binary) {
   std::string text(json);
   while (text.size() % 4 != 0) text += ' ';

@@ -41,6 +41,8 @@ Bytes make_glb(std::string_view json, const Bytes& binary);
 /// A zip of these entries (name, bytes), deflated.
 Bytes make_zip(const std::vector<std::pair<std::string, Bytes>>& entries);
 
+/// The header of a PNG, 24 bytes, and nothing of its pixels.
+Bytes png_of(std::uint32_t width, std::uint32_t height);
 /// One quad of two triangles at z = 0, corners (0,0) (1,0) (1,1) (0,1), indices 0 1 2 0 2 3, with uvs.
 Bytes quad_obj();
 Bytes quad_ply_text();
