@@ -79,11 +79,14 @@ class Connection:
         self._ssl_context = ssl_context
         self._connect_timeout = connect_timeout
         self._socket = None
+        self._was_open = False
         self.stream.start(now())
 
     def poll(self, timeout=0.0):
         """Waits up to `timeout` seconds for a message and returns the events since the last call. Raises WebSocketError when
-        the server refuses for good: no such stream (404), no rights (401, 403)."""
+        the server refuses for good: no such stream (404), no rights (401, 403), not its name (421); it and OSError when the
+        first connection cannot be made. A further call tries again. A connection that was made once is made again without
+        an error."""
         events = self._settle()
         if events or self._socket is None:
             if not events:
@@ -127,14 +130,21 @@ class Connection:
         try:
             self._socket = WebSocket(self.url, [SUBPROTOCOL], headers=headers, timeout=self._connect_timeout,
                                      ssl_context=self._ssl_context)
-        except WebSocketError as error:
-            if error.status in (401, 403, 404):
+        except (WebSocketError, OSError) as error:
+            self.stream.closed(0, now())
+            if not self._may_pass(error):
                 raise
-            self.stream.closed(0, now())
-        except OSError:
-            self.stream.closed(0, now())
         else:
+            self._was_open = True
             self.stream.opened(now())
+
+    def _may_pass(self, error):
+        """Whether to connect again without a word: a server that is busy or has stopped, but not one that refuses, or was
+        never there: then the address is wrong, or its certificate is not accepted."""
+        status = getattr(error, "status", None)
+        if status is not None:
+            return status in (408, 425, 429) or status >= 500
+        return self._was_open
 
     def _send(self):
         """Sends what waits; False when there was nothing."""

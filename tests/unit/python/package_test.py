@@ -6,6 +6,7 @@ import json
 import math
 import os
 import pathlib
+import socket
 import subprocess
 import sys
 import tempfile
@@ -259,6 +260,26 @@ class Streams(unittest.TestCase):
         with self.assertRaises(semblante.WebSocketError) as caught:
             semblante.Connection(self.server.url, "no-such-stream").poll()
         self.assertEqual(caught.exception.status, 404)
+
+    def test_a_server_that_was_never_there_is_said_and_may_come(self):
+        with socket.socket() as taken:
+            taken.bind(("127.0.0.1", 0))  # nobody listens on it
+            nowhere = f"http://127.0.0.1:{taken.getsockname()[1]}"
+            with semblante.Connection(nowhere, "demo") as connection:
+                for _ in range(2):
+                    with self.assertRaises(ConnectionRefusedError):
+                        eventually(lambda: connection.poll(0.05) and None, "an error")
+        with socket.socket() as silent:
+            silent.bind(("127.0.0.1", 0))
+            silent.listen()
+            url = f"http://127.0.0.1:{silent.getsockname()[1]}"
+            with self.assertRaises(socket.timeout):
+                next(semblante.follow(url, "demo", connect_timeout=0.2))
+
+    def test_a_server_of_another_name_is_said(self):
+        with self.assertRaises(semblante.WebSocketError) as caught:
+            semblante.Connection(self.server.url.replace("127.0.0.1", "127.1"), "demo").poll()
+        self.assertEqual(caught.exception.status, 421)
 
     def test_the_examples_run(self):
         self.head()
