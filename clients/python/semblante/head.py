@@ -1,6 +1,7 @@
 """A face package and its current pose."""
 
 import ctypes
+import numbers
 
 from . import arrays
 from ._library import Frame, HeadOptions, Package, Pose, library
@@ -107,14 +108,21 @@ def frame(faps=None, *, viseme=None, expression=None):
             raise ValueError(f"FAP {number} is not one of 3 to {len(made.fap) - 1}")
         made.fap[number] = value
     if viseme is not None:
-        first, second, share = (viseme, 0, 1.0) if isinstance(viseme, int) else viseme
-        made.viseme1, made.viseme2, made.viseme_blend = first, second, _sixty_thirds(share)
+        first, second, share = (viseme, 0, 1.0) if isinstance(viseme, numbers.Integral) else viseme
+        made.viseme1, made.viseme2 = _one_of("viseme", first, 14), _one_of("viseme", second, 14)
+        made.viseme_blend = _sixty_thirds(share)
     if expression is not None:
-        pairs = [expression] if isinstance(expression[0], int) else list(expression)
+        pairs = [expression] if isinstance(expression[0], numbers.Integral) else list(expression)
         for slot, (number, intensity) in enumerate(pairs, 1):
-            setattr(made, f"expression{slot}", number)
+            setattr(made, f"expression{slot}", _one_of("expression", number, 6))
             setattr(made, f"intensity{slot}", _sixty_thirds(intensity))
     return made
+
+
+def _one_of(what, number, most):
+    if not 0 <= number <= most:
+        raise ValueError(f"{what} {number} is not one of 0 to {most}")
+    return number
 
 
 def _sixty_thirds(share):

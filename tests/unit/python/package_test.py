@@ -143,7 +143,9 @@ class Heads(unittest.TestCase):
 
     def test_frames_out_of_range_are_refused(self):
         for wrong in (lambda: semblante.frame({2: 1}), lambda: semblante.frame({69: 1}),
-                      lambda: semblante.frame(expression=(1, 1.5)), lambda: semblante.frame(viseme=(1, 2, -0.1))):
+                      lambda: semblante.frame(expression=(1, 1.5)), lambda: semblante.frame(viseme=(1, 2, -0.1)),
+                      lambda: semblante.frame(viseme=15), lambda: semblante.frame(viseme=(0, -1, 0.5)),
+                      lambda: semblante.frame(viseme=257), lambda: semblante.frame(expression=(7, 1.0))):
             with self.assertRaises(ValueError):
                 wrong()
         with self.assertRaises(semblante.SemblanteError):
