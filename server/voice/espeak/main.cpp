@@ -28,6 +28,7 @@ constexpr std::size_t samples_a_line = 16'384;
 struct Speaking {
   PhonemeTrace* trace = nullptr;
   std::size_t samples = 0, most_samples = 0;
+  TextRange last_word;
   bool too_long = false, broken = false;
 };
 Speaking speaking;  // NOLINT: see above
@@ -43,7 +44,12 @@ void say_event(const espeak_EVENT& event) {
       break;
     }
     case espeakEVENT_WORD:
-      if (event.length > 0) say(line_of(SpokenWord{time, {first, static_cast<std::size_t>(event.length)}}));
+      // A word that is spelled comes again with each of its letters.
+      if (const TextRange word = {first, static_cast<std::size_t>(std::max(0, event.length))};
+          word.count > 0 && !(word == speaking.last_word)) {
+        say(line_of(SpokenWord{time, word}));
+        speaking.last_word = word;
+      }
       break;
     case espeakEVENT_SENTENCE:
       say(line_of(SpokenSentence{time, first}));

@@ -202,6 +202,8 @@ TEST(VoiceEspeak, WordsOfOtherAlphabetsAndLanguages_AreSpokenByTheirDictionaries
   EXPECT_THAT(symbols(*greek), ::testing::Contains("\u0263")) << "as a Greek says it";
   EXPECT_THAT(symbols(*greek), ::testing::Each(::testing::Not(::testing::StartsWith("("))))
       << "names of languages are no sounds";
+  EXPECT_EQ(speak(espeak, asking("Ol\u00E1 \u041F\u0440\u0438\u0432\u0435\u0442 mundo"))->words.size(), 3U)
+      << "spelled, it is one word";
   const auto english = speak(espeak, asking("le software", "fr"));
   ASSERT_TRUE(english.ok()) << english.error().message;
   EXPECT_THAT(symbols(*english), ::testing::Contains("\u0252")) << "a vowel of English, which French has not";
