@@ -193,12 +193,14 @@ class Session {
     return parser.problem_of(error, {static_cast<const char*>(unread.data()), unread.size()});
   }
 
-  asio::awaitable<Next> refuse(const RequestParser& parser, const error_code& error) {
+  asio::awaitable<Next> refuse(RequestParser& parser, const error_code& error) {
     const auto problem = problem_of(parser, error);
     if (!problem) co_return Next::gone;
     http::Request unknown;
     unknown.id = http::new_request_id();
     unknown.method = "GET";
+    for (const char* const name : {"Host", "Origin"})  // they decide which pages may read the answer
+      if (const auto value = parser.request().header(name)) unknown.headers.emplace(name, *value);
     co_return co_await answer(unknown, http::to_response(*problem), 11, false);
   }
 

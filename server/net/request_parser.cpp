@@ -69,8 +69,7 @@ void RequestParser::on_request_impl(boost::beast::http::verb, View method, View 
     problem_ = http::make_problem("malformed-request",
                                   "the request target is not a path, or has an encoded slash, "
                                   "or a % without two hexadecimal digits after it");
-    error = E::bad_target;
-    return;
+    return;  // refused after the header, whose Origin decides which pages may read the answer
   }
   request_.path = std::move(parsed->path);
   request_.query = std::move(parsed->query);
@@ -96,7 +95,7 @@ void RequestParser::on_field_impl(boost::beast::http::field field, View name, Vi
 
 void RequestParser::on_header_impl(ErrorCode& error) {
   request_.received = std::chrono::steady_clock::now();
-  problem_ = ambiguity();
+  if (!problem_) problem_ = ambiguity();
   if (problem_) error = E::bad_field;
 }
 

@@ -432,6 +432,9 @@ TEST_F(Routes, BadRoutesAndMethods_AreToldApart) {
   expect_problem(request(port(), "GET", "/v1/models", {}, {{"Accept", "image/png"}}), 406, "not-acceptable");
   EXPECT_EQ(request(port(), "GET", "/v1/models", {}, {{"Accept", "image/png, */*;q=0.1"}}).status, 200);
   const auto own = "http://127.0.0.1";
+  const auto unreadable = request(port(), "GET", "/v1/streams/..%2Fdemo", {}, {{"Origin", own}});
+  EXPECT_EQ(unreadable.status, 400);
+  EXPECT_EQ(unreadable.headers.at("access-control-allow-origin"), own) << "a page is told what is wrong";
   const auto preflight = request(port(), "OPTIONS", "/v1/models", {}, {{"Origin", own}});
   EXPECT_EQ(preflight.status, 204);
   EXPECT_EQ(preflight.headers.at("access-control-allow-origin"), own);
