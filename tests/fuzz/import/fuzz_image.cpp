@@ -28,11 +28,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       if (image.error().message.empty()) std::abort();
       continue;
     }
-    // Whatever it was, it is now of a type that every client shows, and within the limits as far as it says.
+    // Whatever it was, it is now of a type that every client shows, and has a size within the limits.
     if (import::image_type(image->bytes) != image->mime_type) std::abort();
     if (image->mime_type != "image/png" && image->mime_type != "image/jpeg") std::abort();
     const auto declared = import::declared_size(image->bytes);
-    if (declared && std::max(declared->width, declared->height) > limits.max_image_side) std::abort();
+    if (!declared || declared->pixels() == 0) std::abort();
+    if (std::max(declared->width, declared->height) > limits.max_image_side) std::abort();
   }
   return 0;
 }
