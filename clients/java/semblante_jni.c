@@ -152,7 +152,8 @@ NATIVE(void, headNormals)(JNIEnv* env, jclass type, jlong head, jfloatArray posi
 
 /* ---- streams */
 
-NATIVE(jlong, streamCreate)(JNIEnv* env, jclass type, jboolean publish, jboolean takeOver, jdouble batch, jlong seed) {
+NATIVE(jlong, streamCreate)
+(JNIEnv* env, jclass type, jboolean publish, jboolean takeOver, jdouble batch, jboolean sound, jlong seed) {
   (void)type;
   semblante_stream_options options;
   semblante_error error;
@@ -163,6 +164,7 @@ NATIVE(jlong, streamCreate)(JNIEnv* env, jclass type, jboolean publish, jboolean
   options.role = publish != JNI_FALSE ? SEMBLANTE_ROLE_PUBLISH : SEMBLANTE_ROLE_SUBSCRIBE;
   options.take_over = takeOver != JNI_FALSE;
   options.batch = batch;
+  options.sound = sound != JNI_FALSE;
   options.seed = (uint64_t)seed;
   const semblante_result result = semblante_stream_create(&options, &stream, &error);
   if (result != SEMBLANTE_OK) throw_failure(env, result, &error);
@@ -269,6 +271,20 @@ NATIVE(void, streamPublish)
   if (!(*env)->ExceptionCheck(env))
     check(env, semblante_stream_publish(HANDLE(semblante_stream, stream), frames, (uint32_t)count, mediaTime, now));
   free(frames);
+}
+
+NATIVE(void, streamPublishSound)(JNIEnv* env, jclass type, jlong stream, jbyteArray packet, jdouble mediaTime) {
+  (void)type;
+  const jsize size = (*env)->GetArrayLength(env, packet);
+  jbyte* bytes = (*env)->GetByteArrayElements(env, packet, NULL);
+  if (bytes == NULL) {
+    check(env, SEMBLANTE_OUT_OF_MEMORY);
+    return;
+  }
+  const semblante_result result = semblante_stream_publish_sound(HANDLE(semblante_stream, stream),
+                                                                 (const uint8_t*)bytes, (uint32_t)size, mediaTime);
+  (*env)->ReleaseByteArrayElements(env, packet, bytes, JNI_ABORT);
+  check(env, result);
 }
 
 /* ---- players */

@@ -18,7 +18,7 @@ final class Native {
     static native void headPositions(long head, float[] positions);
     static native void headNormals(long head, float[] positions, float[] normals);
 
-    static native long streamCreate(boolean publish, boolean takeOver, double batch, long seed);
+    static native long streamCreate(boolean publish, boolean takeOver, double batch, boolean sound, long seed);
     static native void streamDestroy(long stream);
     static native void streamStart(long stream, double now);
     static native void streamStop(long stream, double now);
@@ -32,6 +32,7 @@ final class Native {
     static native int streamFrameCount(long stream);
     static native double streamFrame(long stream, int index, float[] numbers);
     static native void streamPublish(long stream, double[] times, float[][] faces, double mediaTime, double now);
+    static native void streamPublishSound(long stream, byte[] packet, double mediaTime);
 
     static native long playerCreate(double delay, boolean eased);
     static native void playerDestroy(long player);

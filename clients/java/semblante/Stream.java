@@ -19,7 +19,12 @@ public final class Stream extends Owner {
 
     /** `batch`: a publisher's frames of so many ms travel in one message. */
     public Stream(boolean publish, boolean takeOver, double batch) {
-        super(Native.streamCreate(publish, takeOver, batch, new Random().nextLong()));
+        this(publish, takeOver, batch, false);
+    }
+
+    /** `sound`: this publisher sends sound too, by publishSound(). A subscriber has no events of sound here. */
+    public Stream(boolean publish, boolean takeOver, double batch, boolean sound) {
+        super(Native.streamCreate(publish, takeOver, batch, publish && sound, new Random().nextLong()));
     }
 
     @Override
@@ -84,5 +89,10 @@ public final class Stream extends Owner {
             faces[i] = frames.get(i).frame.numbers;
         }
         Native.streamPublish(handle(), times, faces, mediaTime, now);
+    }
+
+    /** One Opus packet, heard from `mediaTime` on, on the clock of the frames; of a publisher with sound. */
+    public void publishSound(byte[] packet, double mediaTime) {
+        Native.streamPublishSound(handle(), Objects.requireNonNull(packet), mediaTime);
     }
 }

@@ -185,6 +185,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         session.publish(count, input.byte());
         break;
       }
+      case 'q': {
+        const double media_time = 20.0 * input.byte() - 20.0;
+        const auto packet = input.bytes(input.byte());
+        static_cast<void>(semblante_stream_publish_sound(session.stream, packet.data(),
+                                                         static_cast<std::uint32_t>(packet.size()), media_time));
+        break;
+      }
       case 'k':
         semblante_stream_measure_clock(session.stream, session.now);
         break;

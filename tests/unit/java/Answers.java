@@ -57,6 +57,7 @@ final class Answers {
             () -> head.normals(null, new float[3]),
             () -> head.normals(new float[3], null),
             () -> new Stream().receive(null, 0),
+            () -> new Stream(true, false, 0, true).publishSound(null, 1),
             () -> new Performance(null),
             () -> new Listener(16000).push(null),
             () -> Bridges.fromArkit(null),

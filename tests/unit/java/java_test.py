@@ -61,7 +61,7 @@ class Java(GoldenAnswers, unittest.TestCase):
 
     def test_nothing_is_refused_without_an_end_of_the_process(self):
         self.numbers("head", VECTORS / "face")
-        self.assertEqual(self.ask("null"), "11 of 11")
+        self.assertEqual(self.ask("null"), "12 of 12")
 
 
 if __name__ == "__main__":
