@@ -119,6 +119,25 @@ describe('export', () => {
     await studio.close();
   });
 
+  test('Video_OfAFollowedStream_HasItsSound', async () => {
+    const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { width: 880, height: 560, coarse: true });
+    const { page } = studio;
+    await studio.waitForStage('ready');
+    await page.getByRole('textbox', { name: 'Text to say' }).first().fill('Hello, hello, hello there.');
+    const { bytes } = await saved(page, async () => {
+      await page.getByRole('button', { name: 'Video' }).click();
+      await page.getByRole('button', { name: 'Stop and save' }).waitFor();
+      await page.getByRole('button', { name: 'Speak into a stream' }).first().click();
+      await page.getByRole('button', { name: 'Show the recording' }).first().waitFor();
+      await page.getByRole('button', { name: 'Stop and save' }).click();
+    });
+    const { width, loud } = await measured(page, bytes);
+    expect(width).toBeGreaterThan(100);
+    expect(loud).toBeGreaterThan(1000);
+    expect(studio.errors).toEqual([]);
+    await studio.close();
+  });
+
   test('Keyboard_Narrow_VideoStartsAndStops', async () => {
     const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { width: 390, height: 844, dark: true });
     const { page } = studio;

@@ -106,7 +106,7 @@ function main(root: HTMLElement, session: Session | null, theme: HTMLElement): v
   const animate = new AnimatePanel({
     frame,
     toasts,
-    exports: [codeButton(studio, live, driver), ...exportButtons({ studio, scene, driver, sound, load: loadLibrary, save: saveFile })],
+    exports: [codeButton(studio, live, driver), ...exportButtons({ studio, scene, driver, sound, streamed: liveSound.output, load: loadLibrary, save: saveFile })],
     views: [
       new InfluencePanel(influence, scene).element,
       new UnitsPanel(scene, points, studio, parametrizer).element,

@@ -16,6 +16,7 @@ const mostWaiting = 24;
 export class StreamSound {
   private schedule = new SoundSchedule();
   private context: AudioContext | null = null;
+  private out: GainNode | null = null;
   private decoder: AudioDecoder | null = null;
   /** Media time at which what the decoder was given ends. */
   private given = NaN;
@@ -46,6 +47,11 @@ export class StreamSound {
     return this.context?.state === 'running';
   }
 
+  /** What is heard, for whoever records it; null before the first `start`. */
+  get output(): AudioNode | null {
+    return this.out;
+  }
+
   /** The media time that is heard now, for the option `clock` of the player; NaN while nothing is heard. */
   get mediaTime(): number {
     const { context } = this;
@@ -58,6 +64,8 @@ export class StreamSound {
     if (!this.context) {
       this.context = new AudioContext({ sampleRate: this.client.header?.sound?.rate ?? 48_000, latencyHint: 'interactive' });
       this.schedule = new SoundSchedule(this.context.sampleRate);
+      this.out = this.context.createGain();
+      this.out.connect(this.context.destination);
     }
     await this.context.resume();
   }
@@ -71,7 +79,7 @@ export class StreamSound {
     for (const stop of this.stops) stop();
     if (this.decoder?.state !== 'closed') this.decoder?.close();
     void this.context?.close();
-    this.context = this.decoder = null;
+    this.context = this.out = this.decoder = null;
   }
 
   private silence(): void {
@@ -115,7 +123,7 @@ export class StreamSound {
     const packet = { mediaTime: data.timestamp / 1000, duration: (data.numberOfFrames / data.sampleRate) * 1000 };
     // Of the context's time, because the latency changes, at first from 0, while what was placed stays where it is.
     const placed = context && this.isOn ? this.schedule.place(packet, context.currentTime * 1000, shown + latency(context)) : null;
-    if (context && placed) {
+    if (context && this.out && placed) {
       const buffer = new AudioBuffer({ length: placed.samples, numberOfChannels: data.numberOfChannels, sampleRate: context.sampleRate });
       const samples = new Float32Array(data.numberOfFrames);
       for (let channel = 0; channel < data.numberOfChannels; channel += 1) {
@@ -123,7 +131,7 @@ export class StreamSound {
         stretch(samples, buffer.getChannelData(channel));
       }
       const node = new AudioBufferSourceNode(context, { buffer });
-      node.connect(context.destination);
+      node.connect(this.out);
       node.onended = () => this.nodes.delete(node);
       this.nodes.add(node);
       node.start(placed.at / 1000);

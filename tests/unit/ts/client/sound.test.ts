@@ -99,6 +99,7 @@ class Device {
   baseLatency = 0;
   outputLatency = 0.02;
   destination = null;
+  createGain = (): { connect(): void } => ({ connect: () => undefined });
   readonly played: { at: number; mediaTime: number; duration: number }[] = [];
   static one: Device;
   constructor() {

@@ -4,6 +4,7 @@ import { framesOfClip, writtenRate, type Motion } from '../../face/motion_frames
 import { h, setText } from '../shared/dom.ts';
 import { icon, type IconName } from '../shared/icons.ts';
 import { needsFace } from '../shared/needs_face.ts';
+import type { Signal } from '../shared/signal.ts';
 import type { Studio } from '../shared/studio.ts';
 import type { FaceDriver } from '../stage/face_driver.ts';
 import type { SceneView } from '../stage/scene.ts';
@@ -16,6 +17,8 @@ export interface ExportParts {
   driver: FaceDriver;
   /** What a speech is heard through. */
   sound: HTMLAudioElement;
+  /** What is heard of the followed stream. */
+  streamed: Signal<AudioNode | null>;
   /** Gives the library that writes .fap files. */
   load: () => Promise<Library>;
   save: (content: Blob, name: string) => void;
@@ -85,8 +88,8 @@ function motionOf(driver: FaceDriver): Motion {
 }
 
 /** Starts and stops a video; one that began while a clip or speech played stops with it. */
-function videoButton({ studio, scene, driver, sound }: ExportParts, save: (content: Blob) => void): HTMLButtonElement {
-  const recorder = new VideoRecorder(scene.stage, sound);
+function videoButton({ studio, scene, driver, sound, streamed }: ExportParts, save: (content: Blob) => void): HTMLButtonElement {
+  const recorder = new VideoRecorder(scene.stage, sound, streamed);
   const label = h('span', {}, t('Video'));
   const made = button(label, 'record', t('Record what is seen and heard as WebM'), async () => {
     if (recorder.running) return recorder.stop();

@@ -1,4 +1,5 @@
 import type { Stage } from '../../view/stage.ts';
+import type { Signal } from '../shared/signal.ts';
 import { t } from '../../words/words.ts';
 
 /** Of these the first that the browser can write; opus and VP9 where there is a choice. */
@@ -7,15 +8,18 @@ const framesPerSecond = 30;
 /** How often it is looked whether the playback has ended, ms. */
 const lookInterval = 100;
 
-/** Records the canvas, and the sound of the page where there is one, as WebM. */
+/** Records the canvas, and the sound of the page and of the followed stream where there is one, as WebM. */
 export class VideoRecorder {
   private isRunning = false;
   private recorder: MediaRecorder | null = null;
   private soundtrack: MediaStreamTrack | null = null;
+  private added: AudioNode | null = null;
 
   constructor(
     private readonly stage: Stage,
     private readonly sound: HTMLAudioElement,
+    /** What is heard of the followed stream. */
+    private readonly streamed: Signal<AudioNode | null>,
   ) {}
 
   get running(): boolean {
@@ -78,9 +82,21 @@ export class VideoRecorder {
       source.connect(context.destination);
       source.connect(tap);
       this.soundtrack = tap.stream.getAudioTracks()[0]!;
+      this.streamed.watch((output) => this.addStreamed(output, tap));
       void context.resume();
     }
     return this.soundtrack;
+  }
+
+  /** Another context has the sound of a stream, which nodes cannot leave, but tracks can. */
+  private addStreamed(output: AudioNode | null, tap: AudioNode): void {
+    this.added?.disconnect();
+    this.added = null;
+    if (!output) return;
+    const bridge = new MediaStreamAudioDestinationNode(output.context as AudioContext);
+    output.connect(bridge);
+    this.added = new MediaStreamAudioSourceNode(tap.context as AudioContext, { mediaStream: bridge.stream });
+    this.added.connect(tap);
   }
 }
 

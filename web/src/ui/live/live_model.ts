@@ -10,6 +10,9 @@ import { t } from '../../words/words.ts';
 const off: LinkStatus = { kind: 'off' };
 const noStats: LiveStats = { framesPerSecond: 0, bytesPerSecond: 0, mediaTime: null, sequence: 0, dropped: 0 };
 
+/** ms that a speech waits for the sound of this page to begin: a browser may never allow it. */
+const soundPatience = 5000;
+
 /** All streams, the stream that this page subscribes to, and the stream that the sliders are published to. */
 export class LiveModel {
   /** null until the first response. */
@@ -22,6 +25,8 @@ export class LiveModel {
   readonly subscriber = new Signal<LiveSubscriber | null>(null);
   /** Whether streams are to be heard. Only a subscription made since then has sound: it takes twenty times the bytes of the face. */
   readonly sound = new Signal(false);
+  /** Resolves when the followed stream is heard, or cannot be. */
+  untilHeard = (): Promise<void> => Promise.resolve();
   private publisher: LivePublisher | null = null;
 
   constructor(
@@ -92,6 +97,8 @@ export class LiveModel {
     if (this.following.value === id && this.status.value.kind !== 'ended' && this.hasWantedSound) this.driver.byStream();
     else this.subscribe(id, this.titleOf(id));
     await this.opened();
+    // What is played before the page can be heard is lost, and a short speech would be over.
+    if (this.sound.value) await Promise.race([this.untilHeard(), new Promise((wake) => setTimeout(wake, soundPatience))]);
     return id;
   }
 

@@ -10,6 +10,8 @@ import { t } from '../../words/words.ts';
 export class LiveSound {
   /** Why nothing can be heard; null: something can. */
   readonly fault = new Signal<string | null>(null);
+  /** What is heard of the stream, for whoever records it; null before something can be. */
+  readonly output = new Signal<AudioNode | null>(null);
   private sound: StreamSound | null = null;
   private newest = 0;
 
@@ -19,8 +21,14 @@ export class LiveSound {
     private readonly driver: FaceDriver,
     private readonly stats: () => Readonly<PlayoutStats> | null,
   ) {
-    live.subscriber.watch(() => void this.follow());
-    for (const signal of [live.sound, driver.source] as Signal<unknown>[]) signal.watch(() => void this.play());
+    let newest = Promise.resolve();
+    live.untilHeard = () => newest;
+    live.subscriber.watch(() => (newest = this.follow()));
+    for (const signal of [live.sound, driver.source] as Signal<unknown>[])
+      signal.watch(() => {
+        const before = newest;
+        newest = Promise.all([before, this.play()]).then(() => undefined);
+      });
   }
 
   /** The media time that is heard, ms, for the clock of the face; NaN while nothing is heard. */
@@ -32,6 +40,7 @@ export class LiveSound {
     const number = (this.newest += 1);
     this.sound?.dispose();
     this.sound = null;
+    this.output.set(null);
     const subscriber = this.live.subscriber.value;
     if (!subscriber?.hasSound) return;
     try {
@@ -58,6 +67,7 @@ export class LiveSound {
     try {
       if (this.live.sound.value && this.driver.source.value === 'stream') await sound.start();
       else await sound.stop();
+      if (sound === this.sound) this.output.set(sound.output);
       this.fault.set(null);
     } catch (error) {
       this.fail(error);
