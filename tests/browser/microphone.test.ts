@@ -33,6 +33,7 @@ function voice(): Buffer {
 
 interface Inside {
   semblante: {
+    live: { send(id: string): void; sendStatus: { value: { kind: string } } };
     microphone: { delay: number };
     scene: { performer: { value: { pose: { points: Float32Array } } } };
     driver: { shownFrame(): { state: { viseme: { select1: number; select2: number; blend: number } } } | null };
@@ -104,5 +105,67 @@ test('Microphone_Refused_IsSaidInWords', async () => {
   await page.getByRole('button', { name: 'Use the microphone' }).click();
   await page.getByRole('alert').getByText('The microphone was not allowed').waitFor();
   await page.locator('.driver').getByText('By hand').waitFor();
+  expect(studio.errors).toEqual([]);
+});
+
+test('Voice_IsSentOnlyWhenItIsChosen_AndARecordingKeepsIt', async () => {
+  studio = await open();
+  const { page } = studio;
+  const post = async (path: string, body?: object): Promise<Record<string, unknown>> => {
+    const content = body ? { headers: { 'Content-Type': 'application/json' }, body: JSON.stringify(body) } : {};
+    return (await fetch(server.url + path, { method: 'POST', ...content })).json() as Promise<Record<string, unknown>>;
+  };
+  const { id: stream } = (await post('/v1/streams', { title: 'Voice' })) as { id: string };
+  const recorded = async (seconds: number): Promise<Record<string, unknown>> => {
+    const { id } = await post(`/v1/streams/${stream}/recordings`, {});
+    await page.waitForTimeout(1000 * seconds);
+    return post(`/v1/recordings/${id as string}/stop`);
+  };
+  await studio.context.grantPermissions(['microphone'], { origin: server.url });
+  const microphone = page.getByRole('button', { name: 'Use the microphone' });
+  const voice = page.getByRole('switch', { name: 'Send my voice too' });
+  await microphone.click();
+  await page.getByText('The sound stays on this page.').waitFor();
+  await page.evaluate((id) => (window as unknown as Inside).semblante.live.send(id), stream);
+  await page.waitForFunction(() => (window as unknown as Inside).semblante.live.sendStatus.value.kind === 'open');
+  await shows(studio, 10);
+  expect(await recorded(1.5)).toMatchObject({ sound: false });
+
+  await voice.check();
+  await page.getByText('can hear you').waitFor();
+  await studio.keep('voice-sent');
+  const { id, sound } = await recorded(6);
+  expect(sound).toBe(true);
+  const opus = Buffer.from(await (await fetch(`${server.url}/v1/recordings/${id as string}/content?format=opus`)).arrayBuffer());
+  const { seconds, loud } = await page.evaluate(async (base64) => {
+    const content = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+    const samples = (await new AudioContext({ sampleRate: 48_000 }).decodeAudioData(content.buffer)).getChannelData(0);
+    const parts: number[] = [];
+    for (let n = 0; n + 2400 <= samples.length; n += 2400) parts.push(Math.hypot(...samples.subarray(n, n + 2400)) / Math.sqrt(2400));
+    return { seconds: samples.length / 48_000, loud: parts.filter((level) => level > 0.02).length / parts.length };
+  }, opus.toString('base64'));
+  console.info(`recorded voice: ${seconds.toFixed(2)} s, loud for ${loud.toFixed(2)} of it`);
+  expect(seconds).toBeGreaterThan(2);
+  expect(loud).toBeGreaterThan(0.25); // it says "a" half of the time
+  expect(loud).toBeLessThan(0.75);
+
+  // Whoever begins again is not heard unasked.
+  await page.getByRole('button', { name: 'Stop the microphone' }).click();
+  await microphone.click();
+  await page.getByText('The sound stays on this page.').waitFor();
+  expect(await voice.isChecked()).toBe(false);
+  expect(studio.errors).toEqual([]);
+});
+
+test('Voice_OfABrowserThatCannotEncode_IsSaidInWords', async () => {
+  studio = await open();
+  const { page } = studio;
+  await page.addInitScript(() => Reflect.deleteProperty(globalThis, 'AudioEncoder'));
+  await page.reload();
+  await studio.waitForStage('ready');
+  await studio.context.grantPermissions(['microphone'], { origin: server.url });
+  await page.getByRole('button', { name: 'Use the microphone' }).click();
+  await page.getByText('This browser cannot send the voice').waitFor();
+  expect(await page.getByRole('switch', { name: 'Send my voice too' }).count()).toBe(0);
   expect(studio.errors).toEqual([]);
 });

@@ -125,7 +125,7 @@ function main(root: HTMLElement, session: Session | null, theme: HTMLElement): v
   });
   const clip = new ClipPanel(driver, loadLibrary, saveFile, toasts);
   const speech = new SpeakModel(api, driver, sound, loadLibrary);
-  const microphone = new MicrophoneModel(frame, driver, loadLibrary, () => live.touch());
+  const microphone = new MicrophoneModel(frame, driver, loadLibrary, (time) => live.touch(time), (packet, time) => live.say(packet, time));
   const streamSpeech = new StreamSpeechModel(api, live);
   const voices = api.voices();
   const makeForm = (say: () => void): SpeechForm => new SpeechForm(voices, say);

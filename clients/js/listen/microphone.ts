@@ -98,6 +98,11 @@ export class Microphone {
     return microphone;
   }
 
+  /** The track that is listened to, for whoever sends it. Ends with `close`. */
+  get track(): MediaStreamTrack {
+    return this.stream.getAudioTracks()[0]!;
+  }
+
   /** Gives the microphone back. What was heard and not yet told is told no more. */
   close(): void {
     this.endListening();

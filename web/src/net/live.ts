@@ -121,10 +121,14 @@ export class LiveSubscriber {
 
 const sendInterval = 40;
 
-/** Publishes the frame set with the sliders to a stream, after each change, at most 25 times a second. */
+/**
+ * Publishes the frame set with the sliders to a stream, after each change, at most 25 times a second, and a voice with it. Both have the
+ * page's clock, performance.now().
+ */
 export class LivePublisher {
   private readonly client: StreamClient;
-  private changed = true;
+  /** When the frame became what it is; null: it is sent. */
+  private changed: number | null = performance.now();
   private timer: ReturnType<typeof setInterval> | null = null;
 
   constructor(
@@ -132,21 +136,26 @@ export class LivePublisher {
     private readonly frame: FaceFrame,
     onStatus: (status: LinkStatus) => void,
   ) {
-    this.client = new StreamClient(url, { role: 'publish' });
+    this.client = new StreamClient(url, { role: 'publish', sound: true });
     report(this.client, '', onStatus);
-    this.client.on('header', () => (this.changed = true));
+    this.client.on('header', () => this.touch());
   }
 
   open(): void {
     this.client.connect();
     this.timer = setInterval(() => {
-      if (this.changed) this.changed = !this.client.publish([{ time: 0, state: this.frame }]);
+      if (this.changed !== null && this.client.publish([{ time: 0, state: this.frame }], this.changed)) this.changed = null;
     }, sendInterval);
   }
 
-  /** Marks the frame as changed. */
-  touch(): void {
-    this.changed = true;
+  /** The frame has changed; `time`: the moment that it shows. */
+  touch(time = performance.now()): void {
+    this.changed = time;
+  }
+
+  /** Sends one Opus packet of a voice that was heard from `time` on. */
+  say(packet: Uint8Array, time: number): void {
+    this.client.publishSound(packet, time);
   }
 
   close(): void {

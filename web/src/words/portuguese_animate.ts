@@ -149,8 +149,14 @@ export const portugueseAnimate = {
   'Use the microphone': 'Usar o microfone',
   'Stop the microphone': 'Parar o microfone',
   'The browser asks for the microphone…': 'O navegador pede o microfone…',
-  'The face says what you say, in any language. The sound stays on this page; sliders that are sent to a stream send the mouth too.':
-    'O rosto diz o que você diz, em qualquer língua. O som fica nesta página; controles enviados a uma transmissão enviam também a boca.',
+  'The face says what you say, in any language. Sliders that are sent to a stream send the mouth too.':
+    'O rosto diz o que você diz, em qualquer língua. Controles enviados a uma transmissão enviam também a boca.',
+  'Send my voice too': 'Enviar também a minha voz',
+  'The sound stays on this page.': 'O som fica nesta página.',
+  'Whoever watches the stream to which Live sends the sliders can hear you, and its recordings keep it.':
+    'Quem assiste à transmissão à qual Ao vivo envia os controles pode ouvir você, e as gravações dela guardam a voz.',
+  'This browser cannot send the voice: it has no encoder for it here.': 'Este navegador não pode enviar a voz: aqui ele não tem um codificador para ela.',
+  'The voice cannot be sent: {reason}': 'A voz não pode ser enviada: {reason}',
   'The microphone was not allowed. Allow it for this page in the browser, then try again.':
     'O microfone não foi permitido. Permita-o para esta página no navegador e tente de novo.',
   'There is no microphone.': 'Não há microfone.',

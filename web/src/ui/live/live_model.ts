@@ -154,8 +154,13 @@ export class LiveModel {
     publisher.open();
   }
 
-  /** Call after each change of the frame. */
-  touch(): void {
-    this.publisher?.touch();
+  /** Call after each change of the frame; `time`: the moment that it shows, by performance.now(). */
+  touch(time?: number): void {
+    this.publisher?.touch(time);
+  }
+
+  /** Sends an Opus packet of a voice with the frame, if that is published. */
+  say(packet: Uint8Array, time: number): void {
+    this.publisher?.say(packet, time);
   }
 }

@@ -1,5 +1,6 @@
 import { Bridges, type Library } from '@client/motion/index.ts';
 import { Microphone, MicrophoneError, type ListenFiles, type MicrophoneFault, type OnHeard } from '@client/listen/index.ts';
+import type { OnPacket, VoiceEncoder } from '../../net/voice_encoder.ts';
 import { copyFrame, type FaceFrame } from '@protocol/face_frame.ts';
 import { messageOf } from '../shared/message_of.ts';
 import { Signal } from '../shared/signal.ts';
@@ -26,13 +27,20 @@ const leastInterval = 15;
 
 /**
  * The mouth of who speaks into the microphone. The viseme that is heard is also that of the frame set with the sliders, so that
- * the Live tab publishes it, and an expression set by hand stays.
+ * the Live tab publishes it, and an expression set by hand stays. The voice stays in the page unless it is sent on purpose.
  */
 export class MicrophoneModel {
   readonly state = new Signal<MicrophoneState>({ kind: 'off' });
+  /** Whether the voice goes with the mouth. Off whenever the microphone begins. */
+  readonly sendsVoice = new Signal(false);
+  /** Why the voice cannot be sent; null: it can. */
+  readonly voiceFault = new Signal<string | null>(
+    canEncode() ? null : t('This browser cannot send the voice: it has no encoder for it here.'),
+  );
   /** ms from a moment of the sound to its frame: of the newest. */
   delay = NaN;
   private microphone: Microphone | null = null;
+  private encoder: VoiceEncoder | null = null;
   private shown: FaceFrame;
   private newest = 0;
 
@@ -40,8 +48,10 @@ export class MicrophoneModel {
     private readonly frame: FaceFrame,
     private readonly driver: FaceDriver,
     private readonly load: () => Promise<Library>,
-    /** The frame has changed. */
-    private readonly onChange: () => void,
+    /** The frame has changed; `time`: the moment of the sound that it shows, by performance.now(). */
+    private readonly onChange: (time?: number) => void,
+    /** Takes the packets of the voice while it is sent. */
+    private readonly onPacket: OnPacket,
   ) {
     this.shown = copyFrame(frame);
     driver.onTake((source) => {
@@ -80,10 +90,32 @@ export class MicrophoneModel {
     this.newest += 1;
     this.microphone?.close();
     this.microphone = null;
+    void this.sendVoice(false);
     Object.assign(this.frame.viseme, { select1: 0, select2: 0, blend: 0 });
     this.onChange();
     this.state.set({ kind: 'off' });
     this.driver.release('microphone');
+  }
+
+  /** Lets the voice go with the mouth, or not, while the microphone is on. */
+  async sendVoice(on: boolean): Promise<void> {
+    const { microphone } = this;
+    this.encoder?.close();
+    this.encoder = null;
+    this.sendsVoice.set(on && microphone !== null);
+    if (!this.sendsVoice.value || !microphone) return;
+    const fail = (error: unknown): void => {
+      void this.sendVoice(false);
+      this.voiceFault.set(t('The voice cannot be sent: {reason}', { reason: messageOf(error) }));
+    };
+    try {
+      // What encodes is fetched by those who send.
+      const { VoiceEncoder } = await import('../../net/voice_encoder.ts');
+      if (this.microphone !== microphone || !this.sendsVoice.value || this.encoder) return;
+      this.encoder = new VoiceEncoder(microphone.track, this.onPacket, fail);
+    } catch (error) {
+      fail(error);
+    }
   }
 
   private follower(bridges: Bridges): OnHeard {
@@ -94,9 +126,14 @@ export class MicrophoneModel {
       this.delay = delay;
       Object.assign(this.frame.viseme, bridges.fromOculus(weights).frame.viseme);
       this.shown = copyFrame(this.frame); // a frame that is shown is not changed
-      this.onChange();
+      this.onChange(performance.now() - delay);
     };
   }
+}
+
+/** Whether this browser codes Opus and gives pages the samples of a microphone. */
+function canEncode(): boolean {
+  return typeof AudioEncoder === 'function' && typeof (globalThis as { MediaStreamTrackProcessor?: unknown }).MediaStreamTrackProcessor === 'function';
 }
 
 function wordsOf(fault: MicrophoneFault): string {

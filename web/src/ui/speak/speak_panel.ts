@@ -4,6 +4,7 @@ import { h, redraw, replace } from '../shared/dom.ts';
 import { chooseFile } from '../shared/file_button.ts';
 import { icon } from '../shared/icons.ts';
 import { capital } from '../shared/names.ts';
+import type { Signal } from '../shared/signal.ts';
 import { t } from '../../words/words.ts';
 import { soundEndings } from './sound_files.ts';
 import type { MicrophoneModel } from './microphone_model.ts';
@@ -57,7 +58,8 @@ export class SpeakPanel {
       this.listening,
     );
     this.showRecording();
-    microphone.state.watch(() => redraw(this.listening, () => this.drawListening()));
+    for (const signal of [microphone.state, microphone.sendsVoice, microphone.voiceFault] as Signal<unknown>[])
+      signal.watch(() => redraw(this.listening, () => this.drawListening()));
     model.state.watch(() => this.draw());
     model.playing.watch((playing) => {
       this.draw();
@@ -150,13 +152,38 @@ export class SpeakPanel {
         on ? t('Stop the microphone') : t('Use the microphone'),
       ),
       state.kind === 'asking' ? h('p', { class: 'muted small' }, t('The browser asks for the microphone…')) : null,
-      state.kind === 'on'
-        ? h('p', { class: 'muted small' }, t('The face says what you say, in any language. The sound stays on this page; sliders that are sent to a stream send the mouth too.'))
-        : null,
+      state.kind === 'on' ? h('p', { class: 'muted small' }, t('The face says what you say, in any language. Sliders that are sent to a stream send the mouth too.')) : null,
+      state.kind === 'on' ? this.voiceChoice() : null,
       state.kind === 'failed'
         ? h('div', { class: 'notice error', role: 'alert' }, icon('warning', 16), h('div', { class: 'grow' }, state.message))
         : null,
     );
+  }
+
+  /** Whether the voice goes with the mouth, and what that means. */
+  private voiceChoice(): HTMLElement[] {
+    const { microphone } = this;
+    const fault = microphone.voiceFault.value;
+    if (fault !== null) return [h('p', { class: 'muted small' }, fault)];
+    const on = microphone.sendsVoice.value;
+    const box = h('input', {
+      type: 'checkbox',
+      id: 'send-voice',
+      role: 'switch',
+      'data-focus': 'send-voice',
+      checked: on,
+      on: { change: () => void microphone.sendVoice(box.checked) },
+    });
+    return [
+      h('label', { class: 'switch-row', for: 'send-voice' }, h('span', { class: 'grow' }, h('strong', {}, t('Send my voice too'))), box),
+      h(
+        'p',
+        { class: 'muted small' },
+        on
+          ? t('Whoever watches the stream to which Live sends the sliders can hear you, and its recordings keep it.')
+          : t('The sound stays on this page.'),
+      ),
+    ];
   }
 
   private drawSaid(): void {
