@@ -150,11 +150,11 @@ export const portugueseAnimate = {
   'Stop the microphone': 'Parar o microfone',
   'The browser asks for the microphone…': 'O navegador pede o microfone…',
   'The face says what you say, in any language. Sliders that are sent to a stream send the mouth too.':
-    'O rosto diz o que você diz, em qualquer língua. Controles enviados a uma transmissão enviam também a boca.',
+    'O rosto diz o que você diz, em qualquer língua. Controles enviados a um fluxo enviam também a boca.',
   'Send my voice too': 'Enviar também a minha voz',
   'The sound stays on this page.': 'O som fica nesta página.',
   'Whoever watches the stream to which Live sends the sliders can hear you, and its recordings keep it.':
-    'Quem assiste à transmissão à qual Ao vivo envia os controles pode ouvir você, e as gravações dela guardam a voz.',
+    'Quem assiste ao fluxo para o qual Ao vivo envia os controles pode ouvir você, e as gravações dele guardam a voz.',
   'This browser cannot send the voice: it has no encoder for it here.': 'Este navegador não pode enviar a voz: aqui ele não tem um codificador para ela.',
   'The voice cannot be sent: {reason}': 'A voz não pode ser enviada: {reason}',
   'The microphone was not allowed. Allow it for this page in the browser, then try again.':
