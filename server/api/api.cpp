@@ -37,11 +37,25 @@ bool takes(const RouteBody& body, std::string_view media_type) {
   return std::find(body.types.begin(), body.types.end(), media_type) != body.types.end();
 }
 
-/// "a", "a or b", "a, b or c".
-std::string in_words(std::span<const std::string_view> types) {
+/// "a", "a or b", "a, b or c", with `last` for " or ".
+std::string in_words(std::span<const std::string_view> words, std::string_view last = " or ") {
   std::string text;
-  for (const auto& type : types) text.append(text.empty() ? "" : &type == &types.back() ? " or " : ", ").append(type);
+  for (const auto& word : words) text.append(text.empty() ? "" : &word == &words.back() ? last : ", ").append(word);
   return text;
+}
+
+/// Refuses a query parameter that the route does not have. `?ticket` is for all of them (access::Tickets). Probes and
+/// scrapers, which ask outside of /v1/, may add their own.
+std::optional<http::Response> refuse_unknown_query(const Route& route, const http::Request& head) {
+  if (!route.pattern.starts_with("/v1/")) return std::nullopt;
+  for (const auto& [name, value] : head.query) {
+    if (name == "ticket" || std::find(route.query.begin(), route.query.end(), name) != route.query.end()) continue;
+    const auto known =
+        route.query.empty() ? std::string("this route has none") : "this route has " + in_words(route.query, " and ");
+    return to_response(
+        make_problem("invalid-argument", "there is no parameter \"" + name + "\" here; " + known, "?" + name));
+  }
+  return std::nullopt;
 }
 
 http::BodyPlan plan_body(const Route& route, std::string_view media_type, const ApiLimits& limits) {
@@ -155,6 +169,7 @@ std::variant<http::BodyPlan, http::Response> Api::plan(const http::Request& head
     return response;
   }
   if (auto refusal = refuse_access(security, context_.hub, head, route->scope)) return std::move(*refusal);
+  if (auto refusal = refuse_unknown_query(*route, head)) return std::move(*refusal);
   if (!route->produces.empty() && route->produces != "*/*" &&
       !http::accepts(head.header("Accept").value_or(""), route->produces))
     return to_response(make_problem("not-acceptable", "the answer here is " + std::string(route->produces)));
@@ -212,6 +227,7 @@ std::variant<std::shared_ptr<http::WebSocketPeer>, http::Response> Api::open_web
   const auto& security = context_.config.security;
   if (auto refusal = refuse_entry(security, head)) return std::move(*refusal);
   if (auto refusal = refuse_access(security, context_.hub, head, access::Scope::read)) return std::move(*refusal);
+  if (auto refusal = refuse_unknown_query(*route, head)) return std::move(*refusal);
   if (*context_.stopping) return stopping_response();
   const auto& rights = asking_of(head).rights;
   const auto& id = head.params.at("stream");

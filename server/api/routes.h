@@ -36,7 +36,8 @@ using Handler = http::Response (*)(Context& context, http::Request& request);
 /// One operation. The table is generated from openapi.json (codegen/README.md); handlers.h declares the handlers.
 struct Route {
   std::string_view method;
-  std::string_view pattern;  ///< "/v1/models/{model}": a {name} matches one segment
+  std::string_view pattern;                 ///< "/v1/models/{model}": a {name} matches one segment
+  std::span<const std::string_view> query;  ///< names of its query parameters
   RouteBody body;
   std::string_view produces;  ///< media type of the successful answer; "" for none, "*/*" for that of the artefact
   Handler handler;

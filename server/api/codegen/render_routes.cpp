@@ -36,6 +36,15 @@ std::string body_of(const Operation& operation) {
   return "{BodyKind::" + kind + ", " + operation.function + "_types, " + (announced ? "true" : "false") + "}";
 }
 
+/// The names of an operation's query parameters, as a list of C++.
+std::string query_names(const Json& document, const Operation& operation) {
+  std::string list;
+  for (const auto& node : operation.json->value("parameters", Json::array()))
+    if (const Json& parameter = follow(document, node); parameter.at("in") == "query")
+      list += (list.empty() ? "" : ", ") + quoted(parameter.at("name"));
+  return list;
+}
+
 constexpr auto& scopes = access::scope_names;
 
 std::string scope_of(const Operation& operation) {
@@ -67,10 +76,14 @@ std::string render_route_table(const Json& document) {
         list += (list.empty() ? "" : ", ") + quoted(type);
       types += "constexpr auto " + operation.function + "_types = std::to_array<std::string_view>({" + list + "});\n";
     }
+    const auto query = query_names(document, operation);
+    if (!query.empty())
+      types += "constexpr auto " + operation.function + "_query = std::to_array<std::string_view>({" + query + "});\n";
     const auto runs = operation.json->value("x-runs", std::string("on-worker"));
     if (runs != "on-worker" && runs != "at-once")
       throw std::runtime_error(operation.function + ": there is no x-runs " + runs);
-    rows += "    {" + quoted(operation.method) + ", " + quoted(operation.pattern) + ", " + body_of(operation) + ", " +
+    rows += "    {" + quoted(operation.method) + ", " + quoted(operation.pattern) + ", " +
+            (query.empty() ? "{}" : operation.function + "_query") + ", " + body_of(operation) + ", " +
             quoted(produced_type(document, operation)) + ", " + operation.function +
             ", Runs::" + (runs == "at-once" ? "at_once" : "on_worker") + ", access::Scope::" + scope_of(operation) +
             "},\n";

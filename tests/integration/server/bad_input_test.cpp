@@ -1,6 +1,7 @@
 // Bad input that a first user sends: files that lack what they name, points of another frame, handshakes of another
 // time. Each answer names the field, in a form that can be read, and the server goes on.
 
+#include <cctype>
 #include <chrono>
 #include <cstdint>
 #include <fstream>
@@ -61,6 +62,34 @@ TEST_F(BadInput, ZipWithoutModel_IsAMalformedModel) {
   const auto problem = wait_for_job(port(), made["job"]["id"])["problem"];
   EXPECT_EQ(problem["type"], "/problems/malformed-model") << problem;
   EXPECT_THAT(problem.value("detail", ""), HasSubstr("no .gltf, .glb, .vrm or .obj file"));
+}
+
+/// A misspelt parameter would otherwise be a wish that nobody has heard.
+TEST_F(BadInput, UnknownParameter_IsRefusedByEveryRouteWithThoseItHas) {
+  const auto document = json_of(request(port(), "GET", "/openapi.json"));
+  for (const auto& [pattern, item] : document["paths"].items())
+    for (const auto& [name, operation] : item.items()) {
+      std::string method = name, path = pattern;
+      if (!path.starts_with("/v1/")) continue;
+      for (char& c : method) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+      for (auto open = path.find('{'); open != std::string::npos; open = path.find('{'))
+        path.replace(open, path.find('}', open) + 1 - open, "x");
+      SCOPED_TRACE(method + " " + path);
+      const auto problem = json_of(request(port(), method, path + "?lmit=1"));
+      EXPECT_EQ(problem["type"], "/problems/invalid-argument") << problem;
+      EXPECT_EQ(problem["pointer"], "?lmit");
+      for (auto parameter : operation.value("parameters", json::array())) {
+        if (parameter.contains("$ref"))
+          parameter = document.at(json::json_pointer(parameter["$ref"].get<std::string>().substr(1)));
+        if (parameter["in"] != "query") continue;
+        EXPECT_THAT(problem.value("detail", ""), HasSubstr(parameter["name"].get<std::string>()));
+      }
+    }
+  EXPECT_EQ(request(port(), "GET", "/healthz?lmit=1").status, 200) << "probes may add their own";
+  EXPECT_EQ(json_of(request(port(), "GET", "/v1/models?lmit=1"))["detail"],
+            "there is no parameter \"lmit\" here; this route has limit and after");
+  EXPECT_EQ(json_of(request(port(), "GET", "/v1/streams?limit=1"))["detail"],
+            "there is no parameter \"limit\" here; this route has none");
 }
 
 TEST_F(BadInput, Pointers_EscapeWhatNamesHold) {
