@@ -25,6 +25,10 @@ class CertificateNames {
     names_ = std::move(names);
   }
   [[nodiscard]] bool contains(std::string_view name) const;
+  [[nodiscard]] std::vector<std::string> all() const {
+    const std::lock_guard lock(mutex_);
+    return names_;
+  }
 
  private:
   mutable std::mutex mutex_;

@@ -50,6 +50,8 @@ struct ApiConfig {
   voice::VoiceProgram voice = {};         ///< empty command: the server has no voice
   voice::VoiceProgram sound_reader = {};  ///< empty command: it reads WAV alone
   voice::VoiceProgram recognizer = {};    ///< empty command: it hears no words
+  /// The URLs by which other machines reach this server, as far as it knows them. Any thread.
+  std::function<std::vector<std::string>()> network_urls = [] { return std::vector<std::string>(); };
 };
 
 /// Writes the counts of the network layer into /metrics.

@@ -12,11 +12,13 @@ constexpr std::size_t max_token_bytes = 200;
 constexpr std::size_t max_path_bytes = 1024;
 constexpr unsigned retry_after_tickets = 30;
 
-answer::Session session_of(const Security& security, const access::Rights& rights) {
-  return {.asks_for_tokens = security.asks_for_tokens,
+answer::Session session_of(const ApiConfig& config, const access::Rights& rights) {
+  const bool may_enter = rights.scope != access::Scope::none;
+  return {.asks_for_tokens = config.security.asks_for_tokens,
           .scope = access::scope_name(rights.scope),
           .stream = text_or_null(rights.stream),
-          .model = text_or_null(rights.model)};
+          .model = text_or_null(rights.model),
+          .network_urls = may_enter ? config.network_urls() : std::vector<std::string>()};
 }
 
 /// The cookie of a browser. `__Host-` as its name would need TLS, which a server on loopback does not have.
@@ -32,7 +34,7 @@ std::string cookie(std::string_view token, bool secure, std::string_view more) {
 }  // namespace
 
 http::Response get_session(Context& context, http::Request& request) {
-  auto response = json_response(200, session_of(context.config.security, asking_of(request).rights));
+  auto response = json_response(200, session_of(context.config, asking_of(request).rights));
   response.headers["Cache-Control"] = "no-store";
   return response;
 }
@@ -49,7 +51,7 @@ http::Response create_session(Context& context, http::Request& request) {
   if (asking.refused == access::Verdict::expired) refuse("unauthorized", "the token has expired", "/token");
   if (asking.refused || asking.rights.scope == access::Scope::none)
     refuse("unauthorized", "the token is not accepted: it was never made, or is revoked", "/token");
-  auto response = json_response(200, session_of(security, asking.rights));
+  auto response = json_response(200, session_of(context.config, asking.rights));
   response.headers["Cache-Control"] = "no-store";
   if (security.asks_for_tokens) response.headers["Set-Cookie"] = cookie(token, asking_of(request).from.secure, "");
   return response;

@@ -10,7 +10,10 @@
 #include <arpa/inet.h>
 #include <net/if.h>
 
+#include "server/app/listening.h"
 #include "server/cli/command_failure.h"
+#include "server/http/address_range.h"
+#include "server/http/message.h"
 #include "server/net/self_signed.h"
 #include "server/store/data_files.h"
 
@@ -44,6 +47,20 @@ bool serves_a_network(const ifaddrs& one) {
   return one.ifa_addr != nullptr && (one.ifa_flags & IFF_UP) != 0 && (one.ifa_flags & IFF_LOOPBACK) == 0;
 }
 
+bool is_unspecified(const http::AddressBytes& address) {
+  return address == *http::parse_address("0.0.0.0") || address == *http::parse_address("::");
+}
+
+/// Whether connections to `name` arrive at a listener that is bound to `bound`.
+bool leads_to(const std::string& name, const std::string& bound, std::span<const std::string> own) {
+  const auto address = http::parse_address(name);
+  if (!address) return !http::equal_ignoring_case(name, "localhost");
+  if (http::is_loopback(*address) || std::find(own.begin(), own.end(), name) == own.end()) return false;
+  const auto place = *http::parse_address(bound);
+  if (!is_unspecified(place)) return *address == place;
+  return (name.find(':') == std::string::npos) == (bound.find(':') == std::string::npos);
+}
+
 }  // namespace
 
 std::vector<std::string> network_addresses() {
@@ -65,6 +82,18 @@ std::vector<std::string> network_addresses() {
   }
   four.insert(four.end(), six.begin(), six.end());
   return four;
+}
+
+std::vector<std::string> network_urls(std::span<const net::Listener> listeners, std::span<const std::uint16_t> ports,
+                                      std::span<const std::string> certificate_names) {
+  const auto own = network_addresses();
+  std::vector<std::string> urls;
+  for (std::size_t i = 0; i < listeners.size(); ++i) {
+    if (!listeners[i].tls || http::is_loopback(*http::parse_address(listeners[i].address))) continue;
+    for (const auto& name : certificate_names)
+      if (leads_to(name, listeners[i].address, own)) urls.push_back(url_of({name, ports[i], true}, ports[i]));
+  }
+  return urls;
 }
 
 net::TlsFiles self_signed_certificate(const std::filesystem::path& data, const std::vector<std::string>& names) {

@@ -270,6 +270,11 @@ void run_serve(const ServeOptions& options) {
         "nobody could use this server: it asks for tokens, and there is none. Make one:\n  semblante token create "
         "--data " +
         options.data.string() + " --scope admin");
+  // Of the bound sockets; empty until the server listens.
+  std::vector<std::uint16_t> bound;
+  api_config.network_urls = [&listening, &bound, names = api_config.access.certificate] {
+    return network_urls(listening.listeners, bound, names->all());
+  };
   net::Server* running = nullptr;
   const auto net_metrics = [&running](metrics::TextWriter& writer) { write_net_metrics(writer, running->counts()); };
   api::Api api(api::Context{**store, *blobs, pending, queue, hub, api_config, net_metrics, *recorder, trash});
@@ -289,6 +294,7 @@ void run_serve(const ServeOptions& options) {
   running = &server;
   const auto ports = server.listen();
   if (!ports) fail("serve", ports.error());
+  bound = *ports;
   server.stop_on_signals(!listening.tls);
   std::optional<CertificateFiles> certificate;
   if (listening.tls) {

@@ -1,7 +1,7 @@
 import { describe, expect, test } from 'vitest';
 import { shownFace, untilFace } from './support/face_page.ts';
 import { patience } from './support/patience.ts';
-import { StudioPage } from './support/studio_page.ts';
+import { phone, StudioPage } from './support/studio_page.ts';
 import { browser, server, useStudio } from './support/suite.ts';
 
 useStudio({ tokenScope: 'admin' });
@@ -38,10 +38,10 @@ describe('a stream on a phone', () => {
     const stateOf = async (url: string): Promise<string> => {
       const context = await browser.newContext({ viewport: { width: 390, height: 844 } });
       context.setDefaultTimeout(patience);
-      const phone = await context.newPage();
-      await phone.goto(url, { waitUntil: 'domcontentloaded' });
-      await untilFace(phone, 'playing', 'error');
-      const { state } = await shownFace(phone);
+      const viewer = await context.newPage();
+      await viewer.goto(url, { waitUntil: 'domcontentloaded' });
+      await untilFace(viewer, 'playing', 'error');
+      const { state } = await shownFace(viewer);
       await context.close();
       return state;
     };
@@ -49,5 +49,31 @@ describe('a stream on a phone', () => {
     expect(await stateOf(invitation)).toBe('playing');
     expect(studio.errors).toEqual([]);
     await studio.context.close();
+  });
+
+  test('StudioOpenedOnTheServersOwnMachine_OffersItsAddressesInTheNetwork', async () => {
+    await createStream('Foyer');
+    const studio = await StudioPage.open(browser, `${server.url}/#token=${server.token}`, { ...phone, locale: 'pt-BR', allowed: /status of 401/ });
+    const { page } = studio;
+    // What a server with --lan answers (tests/deploy/tls_test.py).
+    await page.route('**/v1/session', async (route) => {
+      const response = await route.fetch();
+      const urls = ['https://192.0.2.7:8443', 'https://[2001:db8::7]:8443'];
+      await route.fulfill({ response, json: { ...((await response.json()) as object), network_urls: urls } });
+    });
+    await studio.waitForStage('ready');
+    await page.locator('#tab-live').click();
+    await page.getByRole('button', { name: 'Mostrar Foyer num celular' }).click();
+    const dialog = page.getByRole('dialog', { name: 'Foyer num celular' });
+    await dialog.getByRole('img', { name: 'Código QR do endereço' }).waitFor();
+    const address = dialog.getByLabel('Endereço', { exact: true });
+    expect(await address.inputValue()).toMatch(/^https:\/\/192\.0\.2\.7:8443\/view\/[^/#]+$/);
+    await dialog.getByRole('button', { name: 'Fazer um convite' }).click();
+    await dialog.getByText('Quem tiver este endereço').waitFor();
+    await dialog.getByLabel('Esta máquina na rede').selectOption('[2001:db8::7]:8443');
+    expect(await address.inputValue()).toMatch(/^https:\/\/\[2001:db8::7\]:8443\/view\/[^/#]+#token=smb_/);
+    await studio.keep('phone-dialog-390-pt');
+    expect(studio.errors).toEqual([]);
+    await studio.close();
   });
 });

@@ -128,6 +128,30 @@ class Tls(unittest.TestCase):
         self.assertNotEqual(refused.returncode, 0)
         self.assertIn("does not accept the token", refused.stderr)
 
+    def test_lan_tells_by_what_urls_phones_reach_it(self):
+        with support.temporary_folder() as folder:
+            try:
+                server = support.Server(folder / "data", "--lan")
+            except AssertionError as fault:
+                if "this machine has no address in a network" in str(fault):
+                    self.skipTest("this machine is in no network")
+                raise
+            with server:
+                token = next(line for line in server.process.stdout if "#token=" in line).strip().rsplit("=", 1)[1]
+                context = ssl._create_unverified_context()
+                def session(host, **headers):
+                    return json.loads(support.get(f"https://{host}:{server.port}/v1/session", headers=headers, context=context)[2])
+                urls = session("127.0.0.1", Authorization=f"Bearer {token}")["network_urls"]
+                self.assertTrue(urls)
+                for url in urls:
+                    self.assertRegex(url, rf"^https://\S+:{server.port}$")
+                    self.assertNotRegex(url, r"//(localhost|127\.|0\.0\.0\.0)")
+                    self.assertEqual(support.get(url + "/healthz", context=context)[0], 200, url)
+                self.assertEqual(session("127.0.0.1")["network_urls"], [], "only for whoever may enter")
+        local = json.loads(support.get(self.server.url + "/v1/session", headers={"Authorization": f"Bearer {self.token}"},
+                                       context=ssl.create_default_context(cafile=self.folder / "ca.pem"))[2])
+        self.assertEqual(local["network_urls"], [], "it listens to its own machine only")
+
     def test_z_renewed_certificate_with_another_name(self):
         context = ssl.create_default_context(cafile=self.folder / "ca.pem")
         def status(host):

@@ -57,6 +57,7 @@ export const portugueseLive = {
   'Make an invitation': 'Fazer um convite',
   '{id} on a phone': '{id} num celular',
   Address: 'Endereço',
+  'This machine in the network': 'Esta máquina na rede',
   'Point the phone’s camera at the code.': 'Aponte a câmera do celular para o código.',
   'This address exists on this machine only. Start the server with “semblante serve --lan” and open the studio by the address that it prints.': 'Este endereço só existe nesta máquina. Inicie o servidor com “semblante serve --lan” e abra o estúdio pelo endereço que ele mostrar.',
   'Whoever has this address sees the stream, for 12 hours.': 'Quem tiver este endereço vê o fluxo, por 12 horas.',

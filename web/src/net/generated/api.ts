@@ -977,6 +977,8 @@ export interface components {
             stream: string | null;
             /** @description Only this model */
             model: string | null;
+            /** @description Where other machines reach this server, as far as it knows: none when it listens to its own machine only, behind a proxy, and for a request with scope none */
+            network_urls: string[];
         };
         Ticket: {
             ticket: string;

@@ -44,7 +44,11 @@ export class PhoneDialog {
     { type: 'button', hidden: true, on: { click: () => void this.makeInvitation() } },
     t('Make an invitation'),
   );
+  private readonly machine = h('select', { id: 'phone-machine', on: { change: () => this.draw() } });
+  private readonly machineRow = h('div', { hidden: true }, h('label', { for: 'phone-machine' }, t('This machine in the network')), this.machine);
   private readonly base: string;
+  /** Of an invitation that was made here. */
+  private secret: string | undefined;
 
   constructor(
     private readonly studio: Studio,
@@ -54,10 +58,10 @@ export class PhoneDialog {
   }
 
   async open(): Promise<void> {
-    this.draw(phoneLink(this.base, this.stream.id));
+    this.draw();
     showDialog(
       t('{id} on a phone', { id: this.stream.title || this.stream.id }),
-      [this.place, this.note, this.privacy, h('label', { for: 'phone-address' }, t('Address')), this.address],
+      [this.place, this.note, this.privacy, this.machineRow, h('label', { for: 'phone-address' }, t('Address')), this.address],
       [
         this.invite,
         h('button', { type: 'button', on: { click: () => void this.copy() } }, t('Copy')),
@@ -66,6 +70,7 @@ export class PhoneDialog {
     );
     try {
       const session = await getSession(this.studio.api.base);
+      this.offerNetwork(session.network_urls);
       const words = privacyWords(session, this.stream);
       setText(this.privacy, words);
       this.invite.hidden = words === '' || session.scope !== 'admin';
@@ -74,7 +79,18 @@ export class PhoneDialog {
     }
   }
 
-  private draw(link: string): void {
+  /** Where the page itself was opened by an address that only this machine has, the server's in its networks take its place. */
+  private offerNetwork(urls: readonly string[]): void {
+    if (!isLoopback(new URL(this.base).hostname) || urls.length === 0) return;
+    replace(this.machine, ...urls.map((url) => h('option', { value: url }, new URL(url).host)));
+    this.machineRow.hidden = urls.length === 1;
+    this.draw();
+  }
+
+  private draw(): void {
+    // The path is the page's also in a folder of the server.
+    const base = this.machine.value === '' ? this.base : this.machine.value + new URL(this.base).pathname.replace(/\/$/, '');
+    const link = phoneLink(base, this.stream.id, this.secret);
     this.address.value = link;
     const reachable = !isLoopback(new URL(link).hostname);
     replace(this.place, reachable ? qrPicture(link) : null);
@@ -89,8 +105,8 @@ export class PhoneDialog {
   private async makeInvitation(): Promise<void> {
     this.invite.disabled = true;
     try {
-      const secret = await this.studio.api.inviteTo(this.stream.id, invitationLife);
-      this.draw(phoneLink(this.base, this.stream.id, secret));
+      this.secret = await this.studio.api.inviteTo(this.stream.id, invitationLife);
+      this.draw();
       this.invite.hidden = true;
       setText(this.privacy, t('Whoever has this address sees the stream, for 12 hours.'));
     } catch (error) {
