@@ -149,6 +149,7 @@ export class InfluenceView {
       normals.set(vertex === null ? [0, 0, 1] : face.mesh.normals.subarray(vertex * 3, vertex * 3 + 3), i * 3);
       rows.set(vertex === null ? [0, turnsWithHead] : faceRows.subarray(vertex * 2, vertex * 2 + 2), i * 2);
     });
+    this.discs.dispose(); // the buffers of the attributes that are replaced
     this.discs.setAttribute('position', new BufferAttribute(places, 3));
     this.discs.setAttribute('normal', new BufferAttribute(normals, 3));
     this.discs.setAttribute('faceRow', new Uint32BufferAttribute(rows, 2));

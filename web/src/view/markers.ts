@@ -50,6 +50,7 @@ export class Markers {
       sizes[i] = tones[marker.tone].size;
       rings[i] = tones[marker.tone].ring ? 1 : 0;
     });
+    this.geometry.dispose(); // the buffers of the attributes that are replaced
     this.geometry.setAttribute('position', new BufferAttribute(positions, 3));
     this.geometry.setAttribute('color', new BufferAttribute(colors, 3));
     this.geometry.setAttribute('size', new BufferAttribute(sizes, 1));

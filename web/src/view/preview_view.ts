@@ -15,6 +15,7 @@ import {
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { defaultMaterial, studioMaterial } from '@client/three/studio_material.ts';
 import type { PartRole } from '@protocol/rig_document.ts';
+import { disposeMaterials } from './dispose_materials.ts';
 import { pickThrough, type Meeting } from './pick_through.ts';
 import { framedHead, type Box } from './head_box.ts';
 import { meantCorner, moveToEdge } from './triangle_place.ts';
@@ -291,6 +292,7 @@ export class PreviewView {
   dispose(): void {
     this.object.removeFromParent();
     for (const mesh of this.meshes) mesh.geometry.dispose();
+    disposeMaterials(new Set([...this.materials, ...this.meshes.map((mesh) => mesh.material as Material)]));
   }
 }
 

@@ -7,6 +7,7 @@ import type { Problem } from '../../net/types.ts';
 import { makeMaterials } from '@client/three/face_materials.ts';
 import { FaceView, type DeformPath } from '@client/three/face_view.ts';
 import { ballAround, Highlight, type HighlightTarget } from '../../view/highlight.ts';
+import { disposeMaterials } from '../../view/dispose_materials.ts';
 import type { UnitLines } from '../../view/unit_lines.ts';
 import type { InfluenceView } from '../../view/influence_view.ts';
 import { framedHead, headOfPoints } from '../../view/head_box.ts';
@@ -307,7 +308,7 @@ export class SceneView {
     this.performer.value?.dispose();
     this.influence = null;
     this.units = null;
-    this.face?.dispose();
+    this.disposeFace();
     this.face = face?.view ?? null;
     this.rig = face?.loaded.rig ?? null;
     this.packageBytes.set(face?.loaded.packageBytes ?? 0);
@@ -361,13 +362,19 @@ export class SceneView {
     this.stage.dispose();
   }
 
+  private disposeFace(): void {
+    if (!this.face) return;
+    this.face.dispose();
+    disposeMaterials(this.face.materials);
+  }
+
   private clear(): void {
     this.highlight.clear();
     this.influence = null;
     this.units = null;
     this.setPreview(null, '');
     this.framed = '';
-    this.face?.dispose();
+    this.disposeFace();
     this.face = null;
     this.rig = null;
     this.packageBytes.set(0);

@@ -1,0 +1,112 @@
+import { expect, test } from 'vitest';
+import { sampleHead } from './support/paths.ts';
+import { StudioPage, type Inside } from './support/studio_page.ts';
+import { browser, server, useStudio } from './support/suite.ts';
+
+/** How long the studio is used; without it, the few rounds that show what grows with each of them. */
+const seconds = Number(process.env['SEMBLANTE_SOAK_SECONDS'] ?? 0);
+const fewRounds = 3;
+/** First rounds, which fill caches: compiled shaders, texts, the tabs' code. */
+const warmUp = 2;
+
+/** What a page holds after the collector has run. */
+interface Held {
+  /** Of WebGL: buffers, textures, framebuffers, programs and the like. */
+  gpu: Record<string, number>;
+  nodes: number;
+  listeners: number;
+  /** Bytes of scripts: objects, and what typed arrays hold. */
+  heap: number;
+}
+
+/** Counts the objects of WebGL that a page has made and not deleted. Runs in the page, before its scripts. */
+function countGpuObjects(): void {
+  const live: Record<string, number> = {};
+  (window as unknown as { gpuObjects: Record<string, number> }).gpuObjects = live;
+  const prototype = WebGL2RenderingContext.prototype as unknown as Record<string, (...given: unknown[]) => unknown>;
+  for (const kind of ['Buffer', 'Texture', 'Framebuffer', 'Renderbuffer', 'Program', 'Shader', 'VertexArray']) {
+    live[kind] = 0;
+    const make = prototype[`create${kind}`]!;
+    const remove = prototype[`delete${kind}`]!;
+    prototype[`create${kind}`] = function (...given) {
+      live[kind]! += 1;
+      return make.apply(this, given);
+    };
+    prototype[`delete${kind}`] = function (...given) {
+      if (given[0]) live[kind]! -= 1;
+      return remove.apply(this, given);
+    };
+  }
+}
+
+useStudio();
+
+test('Studio_Used_HoldsNoMoreAfterEachRound', async () => {
+  const context = await browser.newContext({ viewport: { width: 880, height: 560 }, deviceScaleFactor: 0.5, reducedMotion: 'reduce' });
+  await context.addInitScript(countGpuObjects);
+  const studio = await StudioPage.openIn(context, server.url);
+  const { page } = studio;
+  const devtools = await context.newCDPSession(page);
+  await studio.waitForStage('ready');
+
+  /** Waits until a head is on the stage; gives its name. */
+  const onStage = async (isSample: boolean): Promise<string> => {
+    const selected = await page.waitForFunction((wanted) => {
+      const { studio: { selected }, scene } = (window as unknown as Inside).semblante;
+      const model = selected.value;
+      const there = model !== null && (model.id === 'sample') === wanted && model.state !== 'importing' && scene.state.value.kind === 'ready';
+      return there ? model.id : null;
+    }, isSample);
+    return (await selected.jsonValue())!;
+  };
+  const look = async (...tabs: string[]): Promise<void> => {
+    for (const tab of tabs) {
+      await page.locator(`#tab-${tab}`).click();
+      await studio.drawn(5);
+    }
+  };
+
+  /** Another head comes and goes, each tab is looked at, a slider is moved, the stream is left and followed again. */
+  const round = async (): Promise<void> => {
+    await studio.drop(sampleHead, 'soak.glb');
+    const other = await onStage(false);
+    await look('points', 'fit', 'animate');
+    await page.evaluate(() => (location.hash = '#sample/animate'));
+    await onStage(true);
+    await look('points', 'fit', 'live', 'animate');
+    const group = page.locator('.fap-group').first();
+    await group.locator('summary').click();
+    await group.locator('input[type=range]').first().press('ArrowRight');
+    await page.locator('.driver').getByText('By hand').waitFor();
+    await group.locator('summary').click();
+    await page.locator('.driver').getByRole('button').click();
+    await page.locator('.driver').getByText(/^Live: /).waitFor();
+    expect((await fetch(`${server.url}/v1/models/${other}`, { method: 'DELETE' })).status).toBe(204);
+  };
+
+  const held = async (): Promise<Held> => {
+    await devtools.send('HeapProfiler.collectGarbage');
+    await devtools.send('HeapProfiler.collectGarbage');
+    const { usedSize, backingStorageSize } = (await devtools.send('Runtime.getHeapUsage')) as { usedSize: number; backingStorageSize?: number };
+    const { nodes, jsEventListeners } = await devtools.send('Memory.getDOMCounters');
+    const gpu = await page.evaluate(() => ({ ...(window as unknown as { gpuObjects: Record<string, number> }).gpuObjects }));
+    return { gpu, nodes, listeners: jsEventListeners, heap: usedSize + (backingStorageSize ?? 0) };
+  };
+
+  for (let i = 0; i < warmUp; i += 1) await round();
+  const before = await held();
+  const end = Date.now() + seconds * 1000;
+  let rounds = 0;
+  while (rounds < fewRounds || Date.now() < end) {
+    await round();
+    rounds += 1;
+  }
+  const after = await held();
+  console.info(`${rounds} rounds, before and after: ${JSON.stringify([before, after])}`);
+  for (const [kind, count] of Object.entries(after.gpu)) expect(count, kind).toBeLessThanOrEqual(before.gpu[kind]!);
+  // Less than a head: what is left are the texts and lists of the page.
+  expect((after.heap - before.heap) / rounds, 'bytes a round').toBeLessThan(600_000);
+  expect((after.nodes - before.nodes) / rounds, 'nodes a round').toBeLessThan(40);
+  expect(studio.errors).toEqual([]);
+  await studio.close();
+}, seconds * 2000 + 1_200_000);
