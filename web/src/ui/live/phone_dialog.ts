@@ -44,8 +44,8 @@ export class PhoneDialog {
     { type: 'button', hidden: true, on: { click: () => void this.makeInvitation() } },
     t('Make an invitation'),
   );
-  private readonly machine = h('select', { id: 'phone-machine', on: { change: () => this.draw() } });
-  private readonly machineRow = h('div', { hidden: true }, h('label', { for: 'phone-machine' }, t('This machine in the network')), this.machine);
+  private readonly machine = h('select', { id: 'phone-machine', hidden: true, on: { change: () => this.draw() } });
+  private readonly machineLabel = h('label', { for: 'phone-machine', hidden: true }, t('This machine in the network'));
   private readonly base: string;
   /** Of an invitation that was made here. */
   private secret: string | undefined;
@@ -61,7 +61,7 @@ export class PhoneDialog {
     this.draw();
     showDialog(
       t('{id} on a phone', { id: this.stream.title || this.stream.id }),
-      [this.place, this.note, this.privacy, this.machineRow, h('label', { for: 'phone-address' }, t('Address')), this.address],
+      [this.place, this.note, this.privacy, this.machineLabel, this.machine, h('label', { for: 'phone-address' }, t('Address')), this.address],
       [
         this.invite,
         h('button', { type: 'button', on: { click: () => void this.copy() } }, t('Copy')),
@@ -83,7 +83,7 @@ export class PhoneDialog {
   private offerNetwork(urls: readonly string[]): void {
     if (!isLoopback(new URL(this.base).hostname) || urls.length === 0) return;
     replace(this.machine, ...urls.map((url) => h('option', { value: url }, new URL(url).host)));
-    this.machineRow.hidden = urls.length === 1;
+    this.machine.hidden = this.machineLabel.hidden = urls.length === 1;
     this.draw();
   }
 
