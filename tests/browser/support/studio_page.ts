@@ -2,7 +2,7 @@ import { mkdirSync, readFileSync } from 'node:fs';
 import { basename, join } from 'node:path';
 import { chromium as driver, type Browser, type BrowserContext, type BrowserContextOptions, type Page } from 'playwright-core';
 import { buildDir, chromium } from './paths.ts';
-import { eventually, patience } from './patience.ts';
+import { eventually, patience, within } from './patience.ts';
 
 /** `args`: of Chromium, beside the usual ones. */
 export function launch(args: string[] = []): Promise<Browser> {
@@ -58,6 +58,9 @@ export class StudioPage {
   static async openIn(context: BrowserContext, url: string, options: Pick<OpenOptions, 'allowed'> = {}): Promise<StudioPage> {
     context.setDefaultTimeout(patience);
     const page = await context.newPage();
+    // Playwright's timeout is not for scripts: one that waits in the page for what never comes would wait without end.
+    const evaluate = page.evaluate.bind(page) as (script: unknown, argument?: unknown) => Promise<unknown>;
+    page.evaluate = ((script: unknown, argument?: unknown) => within(`a script in the page: ${String(script).slice(0, 200)}`, evaluate(script, argument))) as Page['evaluate'];
     const studio = new StudioPage(context, page);
     const report = (fault: string): void => {
       if (!options.allowed?.test(fault)) studio.errors.push(fault);

@@ -1,5 +1,6 @@
 import type { Browser } from 'playwright-core';
 import { afterAll, beforeAll } from 'vitest';
+import { within } from './patience.ts';
 import { startServer, type RunningServer, type ServerOptions } from './server.ts';
 import { launch } from './studio_page.ts';
 
@@ -13,7 +14,7 @@ export function useStudio(options: ServerOptions = {}): void {
     [server, browser] = await Promise.all([startServer(options), launch()]);
   });
   afterAll(async () => {
-    await browser?.close();
-    await server?.stop();
+    await within('the browser is closed', Promise.resolve(browser?.close()));
+    await within('the server stops', Promise.resolve(server?.stop()));
   });
 }
