@@ -18,6 +18,7 @@ import { ProtocolError } from '../../protocol/ts/protocol_error.ts';
 import { standardQuantizers, type QuantizerSteps } from '../../protocol/ts/quantizers.ts';
 import { Emitter } from './emitter.ts';
 import { readFrame, writeFrame } from './frames.ts';
+import { loadUnpacking, type UnpackText } from './speech/library.ts';
 import {
   clockLayout,
   errorLayout,
@@ -149,6 +150,8 @@ const faults: readonly StreamErrorCode[] = [
   'internal',
   'other',
 ];
+/** First byte of a `text` in its packed form. */
+const packedTextType = 13;
 const eventType = { state: 1, connect: 2, close: 3, header: 4, keyframe: 5, frames: 6, clock: 7, refused: 8, fault: 9, end: 10, sound: 11, text: 12 } as const;
 const resumed = 1;
 const ok = 0;
@@ -269,6 +272,8 @@ export class StreamClient extends Emitter<StreamEvents> {
   private readonly whenMade: ((memory: StreamMemory) => void)[] = [];
   private isWanted = false;
   private socket: WebSocket | null = null;
+  private unpack: UnpackText | null = null;
+  private waiting: Uint8Array[] | null = null;
   private timer: ReturnType<typeof setTimeout> | undefined;
   /** When it fires; it may be earlier than the library has something to do. */
   private timerAt = Infinity;
@@ -496,6 +501,7 @@ export class StreamClient extends Emitter<StreamEvents> {
       return this.close();
     }
     this.socket = socket;
+    this.waiting = null;
     socket.binaryType = 'arraybuffer';
     const current = (call: (memory: StreamMemory, now: number) => void) => (): void => {
       if (socket !== this.socket || this.memory === null) return;
@@ -515,6 +521,27 @@ export class StreamClient extends Emitter<StreamEvents> {
   }
 
   private receive(bytes: Uint8Array): void {
+    if (this.waiting) this.waiting.push(bytes);
+    else if (bytes[0] === packedTextType) this.receiveText(bytes);
+    else this.take(bytes);
+  }
+
+  /** A packed text needs a part of the library that others do not load; what comes meanwhile waits. */
+  private receiveText(packed: Uint8Array): void {
+    if (this.unpack) return this.take(this.unpack(packed) ?? packed); // what is none, the stream refuses
+    const { socket } = this;
+    const waiting = (this.waiting = [packed]);
+    void loadUnpacking()
+      .catch(() => null)
+      .then((unpack) => {
+        if (this.waiting !== waiting || this.socket !== socket) return; // another connection
+        this.waiting = null;
+        this.unpack = unpack;
+        for (const bytes of waiting) if (unpack !== null || bytes[0] !== packedTextType) this.receive(bytes);
+      });
+  }
+
+  private take(bytes: Uint8Array): void {
     const { memory } = this;
     if (memory === null) return;
     const at = memory.room(bytes.length);

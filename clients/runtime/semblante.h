@@ -626,6 +626,10 @@ void semblante_speaker_end(semblante_speaker* speaker, double now);
 /* Sets viseme, expression and lids of the frame, and adds nods, raised brows and glances to its head, brows and eyes.
  * Returns 0 and leaves it when nothing is said and the face has come to rest, and for FAPs that are not finite. */
 uint32_t semblante_speaker_show(semblante_speaker* speaker, double now, semblante_frame* frame);
+/* The plain form of a packed text (protocol/SPEC.md, "Packed text"). For pages, whose streams and speakers are two
+ * modules of WebAssembly: elsewhere a stream does it by itself. Returns its size, at most 6,100 bytes; 0: these are no
+ * packed text, or `capacity` is too small. */
+size_t semblante_speaker_unpack(const uint8_t* packed, size_t size, uint8_t* plain, size_t capacity);
 
 #ifdef __cplusplus
 }

@@ -1,9 +1,13 @@
+#include <algorithm>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "clients/runtime/border.h"
 #include "clients/runtime/speaker.h"
 #include "clients/runtime/times.h"
+#include "protocol/cpp/frame_codec.h"
+#include "protocol/cpp/packed_text.h"
 
 struct semblante_speaker {
   explicit semblante_speaker(std::uint32_t seed) : it(seed) {}
@@ -49,6 +53,21 @@ void semblante_speaker_end(semblante_speaker* speaker, double now) {
 uint32_t semblante_speaker_show(semblante_speaker* speaker, double now, semblante_frame* frame) {
   if (speaker == nullptr || frame == nullptr || !is_time(now) || !is_finite(*frame)) return 0;
   return speaker->it.show(now, *frame) ? 1 : 0;
+}
+
+size_t semblante_speaker_unpack(const uint8_t* packed, size_t size, uint8_t* plain, size_t capacity) {
+  if (packed == nullptr || plain == nullptr || size == 0 || packed[0] != packed_text_type) return 0;
+  size_t written = 0;
+  guarded([&] {
+    const auto text = read_packed_text({packed, size});
+    if (!text) return;
+    std::vector<std::uint8_t> bytes;
+    encode_message(*text, bytes);
+    if (bytes.size() > capacity) return;
+    std::copy(bytes.begin(), bytes.end(), plain);
+    written = bytes.size();
+  });
+  return written;
 }
 
 }  // extern "C"

@@ -18,6 +18,8 @@ std::string render_cpp(const nlohmann::ordered_json& schema);
 std::string render_typescript(const nlohmann::ordered_json& schema);
 /// protocol/cpp/generated/packed_tables.h: the constants of the packed form.
 std::string render_packed_cpp(const nlohmann::ordered_json& packed);
+/// protocol/cpp/generated/text_prime.h: the texts that packed texts begin with.
+std::string render_text_prime(const nlohmann::ordered_json& prime);
 /// Two tables of SPEC.md.
 std::string packed_table_list(const nlohmann::ordered_json& packed);
 std::string packed_reference_list(const nlohmann::ordered_json& packed);

@@ -7,6 +7,7 @@
 #include "protocol/cpp/frame_codec.h"
 #include "protocol/cpp/opus_packet.h"
 #include "protocol/cpp/packed_codec.h"
+#include "protocol/cpp/packed_text.h"
 #include "protocol/cpp/speech_score.h"
 #include "protocol/cpp/utf8.h"
 
@@ -161,6 +162,11 @@ Result<Message> read_any(std::span<const std::uint8_t> bytes, FrameDecoder& deco
     return Message(std::move(frames));
   }
   if (bytes.size() > max_binary_message_bytes) return Error{ErrorCode::too_large, "", "over 256 KiB"};
+  if (from_server && bytes[0] == packed_text_type) {
+    auto text = read_packed_text(bytes);
+    if (!text) return std::move(text).error();
+    return Message(*std::move(text));
+  }
   if (!is_keyframe(bytes[0])) return read_by_type<from_server>(bytes, static_cast<const Message*>(nullptr));
   PackedState read;
   auto keyframe = read_packed_keyframe(bytes, read);

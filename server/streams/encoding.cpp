@@ -2,6 +2,7 @@
 
 #include "protocol/cpp/frame_codec.h"
 #include "protocol/cpp/json_codec.h"
+#include "protocol/cpp/packed_text.h"
 #include "server/http/wire_message.h"
 
 namespace semblante::streams {
@@ -13,7 +14,10 @@ void append_payload(std::string& wire, const std::vector<std::uint8_t>& payload)
 void append_encoded(std::string& wire, const Message& message, bool binary, const QuantizerSteps& steps) {
   if (!binary) return http::append_message(wire, encode_json(message, steps), false);
   std::vector<std::uint8_t> payload;
-  encode_message(message, payload);
+  if (const auto* text = std::get_if<SpeechText>(&message))
+    write_packed_text(*text, payload);
+  else
+    encode_message(message, payload);
   append_payload(wire, payload);
 }
 

@@ -57,7 +57,7 @@ void FanOut::add(StreamPeer& client, http::WebSocketSink& sink, Coding coding, W
   subscriber.listens = wishes.sound;
   subscriber.reads = wishes.text;
   subscriber.away = wishes.text && is_text_;
-  subscriber.told = hush_ ? hush_->speech : 0;
+  subscriber.told = hush_ ? hush_->text.speech : 0;
   subscriber.waits = waits;
   if (wishes.sound) ++listeners_;
   if (wishes.text) ++readers_;
@@ -99,14 +99,14 @@ void FanOut::push_sound(SoundPacket sound, Clock::time_point due) {
 void FanOut::push_text(SpeechText text, Clock::time_point due, Clock::time_point until) {
   is_text_ = true;
   std::erase_if(said_, [now = Clock::now()](const Said& one) { return one.until < now; });
-  said_.push_back({text, until});
+  said_.push_back({text, until, {}});
   if (readers_ > 0) passes_.push_back({Kind::text, nullptr, std::move(text), {}, due, true});
 }
 
 void FanOut::end_text(std::optional<SpeechText> hush, Clock::time_point now) {
   is_text_ = false;
   said_.clear();
-  if (hush) hush_ = hush;
+  if (hush) hush_ = Said{*hush, now, {}};
   if (readers_ == 0) return;
   if (hush) passes_.push_back({Kind::text, nullptr, *std::move(hush), {}, now, true});
   passes_.push_back({Kind::newest, nullptr, {}, {}, now, false});
@@ -129,7 +129,7 @@ void FanOut::set_reads(StreamPeer& client, bool reads, BatchLog& log) {
   readers_ = reads ? readers_ + 1 : readers_ - 1;
   if (reads) {
     subscriber.away = is_text_;
-    subscriber.told = hush_ ? hush_->speech : 0;
+    subscriber.told = hush_ ? hush_->text.speech : 0;
     send_texts(subscriber, Clock::now());
   } else if (subscriber.away) {
     subscriber.away = false;
@@ -138,23 +138,25 @@ void FanOut::set_reads(StreamPeer& client, bool reads, BatchLog& log) {
   }
 }
 
-bool FanOut::send_text(Subscriber& subscriber, const SpeechText& text) {
-  http::WireMessage message;
-  append_encoded(message.bytes, Message(text), subscriber.coding == Coding::packed, standard_quantizers());
-  const auto bytes = message.bytes.size();
-  const auto sent =
-      subscriber.sink->send(std::make_shared<const http::WireMessage>(std::move(message)), http::Purpose::state);
+bool FanOut::send_text(Subscriber& subscriber, Said& said) {
+  auto& wire = said.wires[static_cast<std::size_t>(subscriber.coding)];
+  if (!wire) {
+    http::WireMessage message;
+    append_encoded(message.bytes, said.text, subscriber.coding == Coding::packed, standard_quantizers());
+    wire = std::make_shared<const http::WireMessage>(std::move(message));
+  }
+  const auto sent = subscriber.sink->send(wire, http::Purpose::state);
   if (sent != http::Sent::handed) subscriber.waits = true;
   if (sent != http::Sent::handed && sent != http::Sent::waits) return false;
-  subscriber.told = text.speech;
+  subscriber.told = said.text.speech;
   ++counts_.texts_sent;
-  counts_.text_bytes_sent += bytes;
+  counts_.text_bytes_sent += wire->bytes.size();
   return true;
 }
 
 void FanOut::send_texts(Subscriber& subscriber, Clock::time_point now) {
-  for (const auto& [text, until] : said_)
-    if (until >= now && !send_text(subscriber, text)) return;
+  for (auto& said : said_)
+    if (said.until >= now && !send_text(subscriber, said)) return;
 }
 
 const http::SharedWire& FanOut::message_wire(Pass& pass, Coding coding) {
@@ -295,7 +297,7 @@ void FanOut::writable(StreamPeer& client, BatchLog& log) {
 }
 
 void FanOut::send_newest(Subscriber& subscriber, BatchLog& log) {
-  if (subscriber.reads && hush_ && subscriber.told < hush_->speech && !send_text(subscriber, *hush_)) return;
+  if (subscriber.reads && hush_ && subscriber.told < hush_->text.speech && !send_text(subscriber, *hush_)) return;
   const auto& newest = log.join_point(subscriber.coding);
   const auto sent = subscriber.sink->send(newest, http::Purpose::state);
   if (sent == http::Sent::waits || sent == http::Sent::refused) subscriber.waits = true;

@@ -117,9 +117,10 @@ class FanOut {
   struct Said {
     SpeechText text;
     Clock::time_point until;
+    std::array<http::SharedWire, coding_count> wires;  ///< once somebody came too late for its pass
   };
   /// False: the subscriber cannot take more now.
-  bool send_text(Subscriber& subscriber, const SpeechText& text);
+  bool send_text(Subscriber& subscriber, Said& said);
   void send_texts(Subscriber& subscriber, Clock::time_point now);
 
   void count_sent(const http::WireMessage& message);
@@ -133,10 +134,10 @@ class FanOut {
   std::size_t sounds_ = 0;     ///< of the passes, those of sound
   std::size_t listeners_ = 0;  ///< subscribers that get the sound
   std::size_t readers_ = 0;
-  bool is_text_ = false;            ///< what enters the stream is a speech whose text readers get
-  std::vector<Said> said_;          ///< at most a few: whoever adds one drops those that have ended
-  std::optional<SpeechText> hush_;  ///< the last one: readers who have fallen behind still get it
-  std::deque<Pass> passes_;         ///< queue; the first is being sent
+  bool is_text_ = false;      ///< what enters the stream is a speech whose text readers get
+  std::vector<Said> said_;    ///< at most a few: whoever adds one drops those that have ended
+  std::optional<Said> hush_;  ///< the last one: readers who have fallen behind still get it
+  std::deque<Pass> passes_;   ///< queue; the first is being sent
 };
 
 }  // namespace semblante::streams

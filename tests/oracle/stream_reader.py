@@ -201,6 +201,10 @@ class Reader:
         kind = source.u8("/type")
         if kind == NAMED["keyframe"]["type"] or kind >= NAMED["frames"]["type"]:
             return self._packed(kind, source)
+        if kind == 13:
+            from packed_text_reader import packed_text
+
+            return self._taken(packed_text(data))
         if kind not in MESSAGES:
             raise Refused("unsupported", "/type")
         message = {"type": MESSAGES[kind]["wire"]}

@@ -67,7 +67,11 @@ for message in spoken["messages"]:
     if read["type"] == "text":
         check(score_steps(read["score"]) == [tuple(step) for step in message["steps"]], message["name"])
 
-for case in vectors("refused.json")["refused"] + sound["refused"] + spoken["refused"]:
+packed = vectors("packed_text.json")
+for message in packed["messages"]:
+    same(reader, as_json, message, message["name"])
+
+for case in vectors("refused.json")["refused"] + sound["refused"] + spoken["refused"] + packed["refused"]:
     reader = Reader()
     reader.binary(bytes.fromhex("090000e3"))
     if "binary" in case:

@@ -121,6 +121,7 @@ functions = {  # name: (result, arguments)
     "semblante_speaker_reach": (None, [_handle, c_uint32, c_double]),
     "semblante_speaker_end": (None, [_handle, c_double]),
     "semblante_speaker_show": (c_uint32, [_handle, c_double, POINTER(Frame)]),
+    "semblante_speaker_unpack": (c_size_t, [POINTER(c_uint8), c_size_t, POINTER(c_uint8), c_size_t]),
     "semblante_listener_create": (_result, [POINTER(ListenerOptions), _made, _error]),
     "semblante_listener_destroy": (None, [_handle]),
     "semblante_listener_push": (_result, [_handle, POINTER(c_float), c_uint32, _count, POINTER(Heard)]),

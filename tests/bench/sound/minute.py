@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What a minute of talk takes on the wire: face, sound, both, text alone. Python 3, standard library.
 
-    minute.py PROGRAM [TEXT_FILE]     PROGRAM: build/bin/semblante, with its voice beside it
+    minute.py PROGRAM [TEXT_FILE LANGUAGE]     PROGRAM: build/bin/semblante, with its voice beside it
 
 Starts a server, has a stream say the text, and counts the WebSocket payloads and headers of one subscriber without and one with
 sound, and of one with a voice of its own, until the talk ends."""
@@ -38,7 +38,7 @@ def ask(port, method, path, body=None):
 
 
 class Subscriber(threading.Thread):
-    """Counts what comes; in the binary form a first byte of 10 is sound, 11 is text, 9 and 128 to 255 are faces."""
+    """Counts what comes; in the binary form a first byte of 10 is sound, 11 or 13 is text, 9 and 128 to 255 are faces."""
 
     def __init__(self, port, sound=False, text=False):
         super().__init__(daemon=True)
@@ -63,7 +63,7 @@ class Subscriber(threading.Thread):
             payload = self.file.read(size)
             if head[0] & 15 != 2 or not payload or payload[0] in (2, 5):
                 continue
-            kind = {10: "sound", 11: "text"}.get(payload[0], "face")
+            kind = {10: "sound", 11: "text", 13: "text"}.get(payload[0], "face")
             if kind == "sound":
                 self.heard()
             self.bytes[kind] += header + size
@@ -98,14 +98,14 @@ def text_of(path):
     return re.sub(r"\s+", " ", pathlib.Path(path).read_text()).strip()
 
 
-def main(program, text):
+def main(program, text, language):
     with contextlib.closing(Server(program)) as server:
         port = server.port
         assert ask(port, "POST", "/v1/streams", {"name": "talk"})[0] == 201
         subscribers = [Subscriber(port), Subscriber(port, sound=True), Subscriber(port, text=True)]
         for one in subscribers:
             one.start()
-        status, playing = ask(port, "POST", "/v1/streams/talk/speech", {"text": text, "language": "en", "seed": 7})
+        status, playing = ask(port, "POST", "/v1/streams/talk/speech", {"text": text, "language": language, "seed": 7})
         assert status == 202, playing
         while playing:
             seconds = playing["duration"] / 1000  # of what has been made
@@ -125,4 +125,4 @@ def main(program, text):
 
 
 if __name__ == "__main__":
-    main(sys.argv[1], text_of(sys.argv[2] if len(sys.argv) > 2 else TEXT))
+    main(sys.argv[1], text_of(sys.argv[2] if len(sys.argv) > 2 else TEXT), sys.argv[3] if len(sys.argv) > 3 else "en")

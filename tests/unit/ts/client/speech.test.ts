@@ -1,9 +1,11 @@
 import { beforeAll, beforeEach, describe, expect, it, vi } from 'vitest';
 import { Player, StreamClient, type PoseMaker, type StreamOptions } from '../../../../clients/js/index.ts';
+import { loadUnpacking } from '../../../../clients/js/speech/library.ts';
 import { StreamSpeech, voiceFor } from '../../../../clients/js/speech/stream_speech.ts';
 import { isScoreOf, neutralFrame, wordsOf, wordTimes, type Message, type SpeechText, type Spoken } from '../../../../protocol/ts/index.ts';
 import { FakeSocket, headerOf } from '../support/fake_socket.ts';
 import { loadRuntime, loadSpeakers } from '../support/runtime.ts';
+import { fromHex, vectorJson } from '../protocol/vectors.ts';
 
 beforeAll(loadRuntime);
 
@@ -151,6 +153,34 @@ describe('StreamSpeech', () => {
     voices.last.onend!();
     await vi.advanceTimersByTimeAsync(1);
     expect(voices.last.rate).toBeCloseTo(1.3, 2);
+  });
+
+  it('PackedTexts_AreThoseOfTheirVectors_AndKeepTheirOrder', async () => {
+    const { messages } = vectorJson('packed_text.json') as { messages: { binary: string; json: { text: string; score: string; media_time: number } }[] };
+    const { client, give } = await begin();
+    const seen: string[] = [];
+    client.on('text', ({ text, score }) => seen.push(`${text} ${btoa(String.fromCharCode(...score))}`));
+    client.on('frames', () => seen.push('frames'));
+    const raw = (hex: string): void => FakeSocket.last.giveRaw(fromHex(hex).slice().buffer as ArrayBuffer);
+    void loadUnpacking(loadSpeakers);
+    for (const { binary } of messages) raw(binary); // before the part that unpacks them is there
+    give({ type: 'frames', sequence: 2, media_time: 10_040, frames: [{ time: 0, state: neutralFrame() }] });
+    await loadUnpacking(loadSpeakers);
+    await vi.advanceTimersByTimeAsync(1);
+    raw(messages[0]!.binary);
+    const said = messages.map(({ json }) => `${json.text} ${json.score}`);
+    expect(seen).toEqual([...said, 'frames', said[0]]);
+  });
+
+  it('BytesThatAreNoPackedText_AreAFault', async () => {
+    const { client } = await begin();
+    await loadUnpacking(loadSpeakers);
+    const faults: unknown[] = [];
+    client.on('fault', (fault) => faults.push(fault));
+    FakeSocket.last.giveRaw(Uint8Array.of(13, 1, 1, 255, 255, 255, 255).buffer);
+    await vi.advanceTimersByTimeAsync(1);
+    expect(faults).toHaveLength(1);
+    client.close();
   });
 
   it('EmptyText_Silences', async () => {

@@ -1,0 +1,78 @@
+#include "protocol/cpp/packed_text.h"
+
+#include <cassert>
+#include <memory>
+#include <string>
+
+#include "protocol/cpp/byte_io.h"
+#include "protocol/cpp/generated/text_prime.h"
+#include "protocol/cpp/packed_state.h"
+#include "protocol/cpp/range_coder.h"
+#include "protocol/cpp/text_model.h"
+#include "protocol/cpp/utf8.h"
+
+namespace semblante {
+namespace {
+
+using text_model::Memory;
+using text_model::TextModel;
+
+/// For texts that both sides know.
+struct Listener {
+  static constexpr bool decodes = false;
+  static int bit(std::uint32_t /*chance*/, int value) { return value; }
+};
+
+/// What a model has learned from the texts of text_prime.json, with which each packed text begins.
+const Memory& primed() {
+  static const auto memory = [] {
+    auto learned = std::make_unique<Memory>();
+    Listener nobody;
+    TextModel model(nobody, *learned);
+    for (const auto& [language, text, score] : text_prime) {
+      SpeechText known{0, 0, std::string(language), std::string(text), {score.begin(), score.end()}};
+      model.message(known);
+    }
+    return learned;
+  }();
+  return *memory;
+}
+
+}  // namespace
+
+void write_packed_text(const SpeechText& text, std::vector<std::uint8_t>& to) {
+  assert(check_text(text));
+  to.push_back(packed_text_type);
+  byte_io::append_varint(to, text.speech);
+  byte_io::append_varint(to, text.media_time);
+  const auto memory = std::make_unique<Memory>(primed());
+  RangeEncoder coder(to);
+  SpeechText coded = text;
+  TextModel(coder, *memory).message(coded);
+  coder.finish();
+}
+
+Result<SpeechText> read_packed_text(std::span<const std::uint8_t> bytes) {
+  byte_io::Reader reader(bytes);
+  reader.u8();
+  SpeechText text;
+  for (const auto& [where, number] : {std::pair{"/speech", &text.speech}, std::pair{"/media_time", &text.media_time}}) {
+    *number = reader.varint();
+    if (reader.failed()) return Error{ErrorCode::truncated, where, "the message ends within this field"};
+    if (*number > max_media_time) return Error{ErrorCode::out_of_range, where, "must be at most 2^53 - 1"};
+  }
+  RangeDecoder coder(bytes.subspan(reader.position()));
+  const auto memory = std::make_unique<Memory>(primed());
+  const auto wrong = TextModel(coder, *memory).message(text);
+  if (!coder.valid()) return Error{ErrorCode::malformed, "/text", "is not the start of a packed text"};
+  if (coder.truncated()) return Error{ErrorCode::truncated, "/text", "the message ends within a packed text"};
+  if (!wrong.empty()) return Error{ErrorCode::malformed, std::string(wrong), "is too long, or no part of a text"};
+  if (coder.has_more()) return Error{ErrorCode::malformed, "/text", "bytes after the end"};
+  for (const auto& [where, part] : {std::pair{"/language", &text.language}, std::pair{"/text", &text.text}})
+    if (!is_utf8({reinterpret_cast<const std::uint8_t*>(part->data()), part->size()}))
+      return Error{ErrorCode::malformed, where, "must be UTF-8"};
+  if (auto status = check_text(text); !status) return std::move(status).error();
+  return text;
+}
+
+}  // namespace semblante
