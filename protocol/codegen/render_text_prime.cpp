@@ -18,24 +18,29 @@ std::string render_text_prime(const Json& prime) {
 #pragma once
 
 #include <array>
-#include <string_view>
+#include <cstdint>
 
 namespace semblante {
 
-/// A text that both sides of a packed text know: SPEC.md, "Packed text".
+/// Sizes in bytes of a text that both sides of a packed text know: SPEC.md, "Packed text".
 struct KnownText {
-  std::string_view language, text, score;
+  std::uint16_t language, text, score;
 };
 
 )";
-  const Json& texts = prime.at("texts");
-  out += "inline constexpr std::array<KnownText, " + std::to_string(texts.size()) + "> text_prime = {{\n";
-  for (const Json& known : texts) {
-    const std::string score = text(known, "score");
-    out += "    {" + known.at("language").dump() + ", " + known.at("text").dump() + ", {\"" + escaped(score) + "\", " +
-           std::to_string(score.size() / 2) + "}},\n";
+  std::string sizes, bytes;
+  for (const Json& known : prime.at("texts")) {
+    const std::string language = text(known, "language"), words = text(known, "text"), score = text(known, "score");
+    sizes += "    {" + std::to_string(language.size()) + ", " + std::to_string(words.size()) + ", " +
+             std::to_string(score.size() / 2) + "},\n";
+    bytes += "\n    " + known.at("language").dump() + " " + known.at("text").dump() + " \"" + escaped(score) + "\"";
   }
-  return out + "}};\n\n}  // namespace semblante\n";
+  out += "inline constexpr std::array<KnownText, " + std::to_string(prime.at("texts").size()) + "> text_prime = {{\n" +
+         sizes +
+         "}};\n\n/// Language, text and score of each, one after another: pointers to each would take more than they "
+         "do.\n" +
+         "inline constexpr char text_prime_bytes[] =" + bytes + ";\n";
+  return out + "\n}  // namespace semblante\n";
 }
 
 }  // namespace semblante::codegen

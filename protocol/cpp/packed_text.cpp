@@ -1,6 +1,5 @@
 #include "protocol/cpp/packed_text.h"
 
-#include <cassert>
 #include <memory>
 #include <string>
 
@@ -23,33 +22,25 @@ struct Listener {
   static int bit(std::uint32_t /*chance*/, int value) { return value; }
 };
 
-/// What a model has learned from the texts of text_prime.json, with which each packed text begins.
-const Memory& primed() {
+}  // namespace
+
+const Memory& text_model::primed() {
   static const auto memory = [] {
     auto learned = std::make_unique<Memory>();
     Listener nobody;
     TextModel model(nobody, *learned);
+    const char* at = text_prime_bytes;
     for (const auto& [language, text, score] : text_prime) {
-      SpeechText known{0, 0, std::string(language), std::string(text), {score.begin(), score.end()}};
+      SpeechText known;
+      known.language.assign(at, language);
+      known.text.assign(at + language, text);
+      known.score.assign(at + language + text, at + language + text + score);
+      at += language + text + score;
       model.message(known);
     }
     return learned;
   }();
   return *memory;
-}
-
-}  // namespace
-
-void write_packed_text(const SpeechText& text, std::vector<std::uint8_t>& to) {
-  assert(check_text(text));
-  to.push_back(packed_text_type);
-  byte_io::append_varint(to, text.speech);
-  byte_io::append_varint(to, text.media_time);
-  const auto memory = std::make_unique<Memory>(primed());
-  RangeEncoder coder(to);
-  SpeechText coded = text;
-  TextModel(coder, *memory).message(coded);
-  coder.finish();
 }
 
 Result<SpeechText> read_packed_text(std::span<const std::uint8_t> bytes) {
@@ -62,7 +53,7 @@ Result<SpeechText> read_packed_text(std::span<const std::uint8_t> bytes) {
     if (*number > max_media_time) return Error{ErrorCode::out_of_range, where, "must be at most 2^53 - 1"};
   }
   RangeDecoder coder(bytes.subspan(reader.position()));
-  const auto memory = std::make_unique<Memory>(primed());
+  const auto memory = std::make_unique<Memory>(text_model::primed());
   const auto wrong = TextModel(coder, *memory).message(text);
   if (!coder.valid()) return Error{ErrorCode::malformed, "/text", "is not the start of a packed text"};
   if (coder.truncated()) return Error{ErrorCode::truncated, "/text", "the message ends within a packed text"};

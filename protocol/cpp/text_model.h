@@ -36,6 +36,9 @@ struct Memory {
   }
 };
 
+/// What a model has learned from the texts of text_prime.json, with which each packed text begins.
+const Memory& primed();
+
 /// Chance of a 1, 1..4095 in 4096ths, of a logit in 256ths.
 inline int squash(int logit) {
   static constexpr std::array<int, 33> chances = {1,    2,    4,    6,    10,   17,   27,   45,   74,   120,  194,
@@ -66,7 +69,7 @@ constexpr std::uint32_t fold(std::uint32_t hash, std::uint32_t value) {
   return hash ^ hash >> 15U;
 }
 
-constexpr std::uint32_t hash_of(std::initializer_list<std::uint32_t> values) {
+[[gnu::noinline]] constexpr std::uint32_t hash_of(std::initializer_list<std::uint32_t> values) {
   std::uint32_t hash = 0;
   for (const std::uint32_t value : values) hash = fold(hash, value);
   return hash;
@@ -148,7 +151,7 @@ class TextModel {
 
   static constexpr unsigned mark = 15;  ///< in place of a viseme
 
-  unsigned bit(const Contexts& contexts, unsigned node, unsigned value) {
+  [[gnu::noinline]] unsigned bit(const Contexts& contexts, unsigned node, unsigned value) {
     auto& set = memory_.weights[set_];
     std::array<std::uint16_t*, inputs> slots{};
     std::array<std::int32_t*, inputs> weights{};
@@ -175,7 +178,7 @@ class TextModel {
   }
 
   /// Codes `count` bits, high bits first.
-  unsigned symbol(const Contexts& contexts, unsigned count, unsigned value) {
+  [[gnu::noinline]] unsigned symbol(const Contexts& contexts, unsigned count, unsigned value) {
     unsigned node = 1;
     while (count-- > 0) node = 2 * node + bit(contexts, node, value >> count & 1U);
     return node;
