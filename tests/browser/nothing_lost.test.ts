@@ -100,6 +100,23 @@ describe('nothing is lost', () => {
     await studio.close();
     await other.close();
 
+    // Another client uploads a head; its link is opened in a page that has not heard of it.
+    const late = await StudioPage.open(browser, server.url, { width: 1280, height: 720, coarse: true });
+    await late.waitForStage('ready');
+    const { model } = (await (
+      await fetch(`${server.url}/v1/models?name=Late&filename=late.glb`, { method: 'POST', body: readFileSync(sampleHead), headers: { 'Content-Type': 'model/gltf-binary' } })
+    ).json()) as { model: { id: string } };
+    await late.page.evaluate((id) => (location.hash = `#${id}/points`), model.id);
+    await late.page.waitForFunction((id) => (window as unknown as Inside).semblante.studio.selected.value?.id === id, model.id);
+    await late.page.locator('#tab-points[aria-selected=true]').waitFor();
+    await late.waitForStage('ready');
+    // The other client deletes it again.
+    await fetch(`${server.url}/v1/models/${model.id}`, { method: 'DELETE' });
+    await late.page.getByText('Late was deleted elsewhere.').waitFor();
+    await late.page.waitForFunction(() => (window as unknown as Inside).semblante.studio.selected.value?.id === 'sample');
+    expect(late.errors).toEqual([]);
+    await late.close();
+
     const lost = await StudioPage.open(browser, `${server.url}/#nobody/points?point=9.9&stream=x`, { width: 1280, height: 720, coarse: true });
     await lost.page.getByText('The head of this address is not on the server.').waitFor();
     await lost.waitForStage('ready');

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "protocol/cpp/json_codec.h"
+#include "server/streams/batch_sender.h"
 #include "server/streams/growing_source.h"
 #include "server/streams/player.h"
 #include "server/streams/stream.h"
@@ -137,6 +138,28 @@ TEST_F(SoundTest, SoundThatWaits_DoesNotPutAListenerBehind) {
   slow->socket->read_again(*slow->connection);
   EXPECT_EQ(count_frames(slow->take_all()), 1U) << "the frame itself, no keyframe in its place";
   EXPECT_EQ(stream_->counts().messages_replaced, 0U);
+}
+
+/// A machine with much else to do: the thread that sends does not run for a while.
+TEST_F(SoundTest, PacketsThatWaitWithFrames_AreSentLater) {
+  const auto sender = std::make_shared<BatchSender>();
+  sender->stop();
+  stream_ = std::make_shared<Stream>(unbatched_stream(), limits_, sender);
+  const auto ticket = stream_->begin_playing(25.0, false);
+  ASSERT_TRUE(ticket);
+  ticket_ = *ticket;
+  const auto listener = connect(true);
+  listener->take_all();
+  for (int k = 0; k < 20; ++k) {
+    frame(60 * k, static_cast<std::int16_t>(k + 1));
+    sound(60 * k);
+  }
+  const auto now = Stream::Clock::now();
+  for (int k = 0; k < 100; ++k) stream_->advance(now + milliseconds(k));
+  const auto messages = listener->take_all();
+  EXPECT_EQ(count_frames(messages), 20U) << "in fewer batches";
+  EXPECT_EQ(sounds_of(messages).size(), 16U);
+  EXPECT_EQ(stream_->counts().sound_dropped, 4U);
 }
 
 TEST_F(SoundTest, NobodyListens_NothingIsQueued) {

@@ -193,6 +193,7 @@ export const portuguese = {
   'Rotating the head': 'Girando a cabeça',
   'The head was not deleted': 'A cabeça não foi excluída',
   '{name} was deleted.': '{name} foi excluída.',
+  '{name} was deleted elsewhere.': '{name} foi excluída em outro lugar.',
   Parametrizing: 'Parametrizando',
   'The parametrization failed': 'A parametrização falhou',
   'The proposals failed': 'A proposta falhou',

@@ -40,16 +40,20 @@ export class Address {
     studio.tab.watch(() => this.changed());
     this.points.chosen.watch(() => this.changed());
     live.following.watch(() => this.changed());
-    window.addEventListener('popstate', () => this.follow());
+    window.addEventListener('popstate', () => void this.follow());
   }
 
-  /** Back, Forward, or an address that was typed. */
-  private follow(): void {
+  /** Back, Forward, or an address that was typed. What it names may have come to the server since the lists were read. */
+  private async follow(): Promise<void> {
     const route = parseRoute(location.hash);
     const { studio, live } = this;
     this.route = route;
+    const has = (list: readonly { id: string }[] | null, id: string | null): boolean => id === null || (list ?? []).some((one) => one.id === id);
+    if (!has(studio.models.value, route.head)) await studio.update();
+    if (!has(live.streams.value, route.stream)) await live.refresh();
+    if (this.route !== route) return; // another address has come meanwhile
     if (route.head !== null && route.head !== studio.selected.value?.id) {
-      if (studio.models.value.some(({ id }) => id === route.head)) studio.select(route.head);
+      if (has(studio.models.value, route.head)) studio.select(route.head);
       else studio.toasts.say(t('The head of this address is not on the server.'));
     }
     if (route.stream === null && this.namedStream() !== null) live.unsubscribe();

@@ -18,7 +18,7 @@ export interface PolledParts {
   clip: ClipPanel;
 }
 
-/** Updates the displays that change with time, and polls streams and recordings while the Live tab is open. */
+/** Updates the displays that change with time, and polls heads, and while the Live tab is open streams and recordings. */
 export function startPolling({ studio, scene, live, livePanel, overlay, recordings, performance, clip }: PolledParts): void {
   setInterval(() => {
     const player = scene.performer.value?.player ?? null;
@@ -37,6 +37,11 @@ export function startPolling({ studio, scene, live, livePanel, overlay, recordin
   setInterval(() => {
     if (recordings.running.length > 0 && studio.tab.value === 'live') void recordings.refresh();
   }, 1000);
+  const updateHeads = (): void => {
+    if (document.visibilityState === 'visible' && navigator.onLine && studio.shelf.value.kind === 'ready') void studio.update();
+  };
+  setInterval(updateHeads, 5000);
+  document.addEventListener('visibilitychange', updateHeads);
   studio.tab.watch((tab) => {
     if (tab !== 'live') return;
     void live.refresh();

@@ -30,6 +30,8 @@ export class Studio {
   /** Called when a head was deleted. */
   onRemoved: (id: string) => void = () => {};
   private uploads = 0;
+  /** Heads that this page is deleting now. */
+  private readonly deleting = new Set<string>();
 
   constructor(
     readonly api: Api,
@@ -51,6 +53,36 @@ export class Studio {
     } catch (error) {
       this.shelf.set({ kind: 'failed', problem: problemOf(error) });
       return false;
+    }
+  }
+
+  /** Takes in what others have uploaded, changed or deleted since the list was read. */
+  async update(): Promise<void> {
+    const { value: before } = this.models;
+    let listed: readonly Model[];
+    try {
+      listed = await this.api.listModels();
+    } catch {
+      return; // the next time will tell
+    }
+    if (this.models.value !== before || this.deleting.size > 0) return; // this page has changed it meanwhile
+    const known = new Map(before.map((model) => [model.id, model]));
+    // What is known has all parts of a head; a list has the largest ones.
+    const models = listed.map((model) => {
+      const own = known.get(model.id);
+      return own?.updated === model.updated && own.state === model.state ? own : model;
+    });
+    if (models.length === before.length && models.every((model, i) => model === before[i])) return;
+    this.models.set(models);
+    for (const { id, state } of models) if (state === 'importing' && !this.activities.value.has(id)) void this.waitForImport(id);
+    const { value: open } = this.selected;
+    if (!open) return;
+    const now = models.find(({ id }) => id === open.id);
+    if (!now) {
+      this.forget(open);
+      this.toasts.say(t('{name} was deleted elsewhere.', { name: open.name }));
+    } else if (now.updated !== open.updated || now.state !== open.state) {
+      void this.reload(open.id);
     }
   }
 
@@ -127,17 +159,23 @@ export class Studio {
   }
 
   async remove(model: Model): Promise<void> {
+    this.deleting.add(model.id);
     await this.attempt(t('The head was not deleted'), async () => {
       await this.api.deleteModel(model.id);
-      this.onRemoved(model.id);
-      this.models.set(this.models.value.filter((m) => m.id !== model.id));
-      if (this.selected.value?.id === model.id) {
-        const next = this.models.value[0];
-        if (next) this.select(next.id);
-        else this.selected.set(null);
-      }
+      this.forget(model);
       this.toasts.say(t('{name} was deleted.', { name: model.name }));
     });
+    this.deleting.delete(model.id);
+  }
+
+  /** Takes a head that is gone from the list; if it was open, another one opens. */
+  private forget(model: Model): void {
+    this.onRemoved(model.id);
+    this.models.set(this.models.value.filter((m) => m.id !== model.id));
+    if (this.selected.value?.id !== model.id) return;
+    const next = this.models.value[0];
+    if (next) this.select(next.id);
+    else this.selected.set(null);
   }
 
   /** Computes weights and package. Resolves with whether the job succeeded; throws ApiError when points are refused. */

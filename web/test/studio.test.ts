@@ -1,0 +1,79 @@
+import { expect, test } from 'vitest';
+import type { Api } from '../src/net/api.ts';
+import type { Model } from '../src/net/types.ts';
+import { Studio } from '../src/ui/shared/studio.ts';
+import type { Toasts } from '../src/ui/shared/toast.ts';
+import { importingModel } from './support/models.ts';
+
+function head(id: string, updated = '2026-01-01T00:00:00.000Z'): Model {
+  return importingModel({ id, name: id, state: 'ready', updated });
+}
+
+/** A studio with these heads; `server` is what the server has, and may be changed. */
+async function studioWith(...heads: Model[]): Promise<{ studio: Studio; server: { heads: Model[]; pause?: Promise<void> }; said: string[] }> {
+  const server: { heads: Model[]; pause?: Promise<void> } = { heads };
+  const said: string[] = [];
+  const api = {
+    listModels: async () => {
+      const { heads: now } = server;
+      await server.pause;
+      return now;
+    },
+    getModel: (id: string) => Promise.resolve(server.heads.find((one) => one.id === id)),
+    deleteModel: (id: string) => {
+      server.heads = server.heads.filter((one) => one.id !== id);
+      return Promise.resolve();
+    },
+  } as unknown as Api;
+  const studio = new Studio(api, { say: (words: string) => said.push(words), problem: () => {} } as unknown as Toasts);
+  await studio.start();
+  studio.select(heads[0]!.id);
+  return { studio, server, said };
+}
+
+const ids = (studio: Studio): string[] => studio.models.value.map(({ id }) => id);
+
+test('Update_HeadsOfOthers_ComeAndGo', async () => {
+  const { studio, server, said } = await studioWith(head('ana'), head('rui'));
+  server.heads = [head('eva'), head('ana')];
+  await studio.update();
+  expect(ids(studio)).toEqual(['eva', 'ana']);
+  expect(studio.selected.value?.id).toBe('ana');
+  expect(said).toEqual([]);
+});
+
+test('Update_OpenHeadDeletedElsewhere_IsSaid_AndAnotherOpens', async () => {
+  const { studio, server, said } = await studioWith(head('ana'), head('rui'));
+  server.heads = [head('rui')];
+  await studio.update();
+  expect(studio.selected.value?.id).toBe('rui');
+  expect(said).toEqual(['ana was deleted elsewhere.']);
+});
+
+test('Update_OpenHeadChangedElsewhere_IsReadAgain', async () => {
+  const { studio, server } = await studioWith(head('ana'));
+  server.heads = [{ ...head('ana', '2026-01-02T00:00:00.000Z'), name: 'Ana Maria' }];
+  await studio.update();
+  await Promise.resolve();
+  expect(studio.selected.value?.name).toBe('Ana Maria');
+});
+
+test('Update_NothingNew_ChangesNothing', async () => {
+  const { studio, server } = await studioWith(head('ana'), head('rui'));
+  const before = studio.models.value;
+  server.heads = [head('ana'), head('rui')];
+  await studio.update();
+  expect(studio.models.value).toBe(before);
+});
+
+test('Update_WhileThisPageDeletes_DoesNotBringTheHeadBack', async () => {
+  const { studio, server, said } = await studioWith(head('ana'), head('rui'));
+  let resume = (): void => {};
+  server.pause = new Promise((resolve) => (resume = resolve));
+  const updating = studio.update(); // has read both heads
+  await studio.remove(studio.models.value[1]!);
+  resume();
+  await updating;
+  expect(ids(studio)).toEqual(['ana']);
+  expect(said).toEqual(['rui was deleted.']);
+});
