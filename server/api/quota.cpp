@@ -57,6 +57,7 @@ std::vector<Quota> quotas_of(Context& context, const std::string& token, bool li
   const auto usage = usage_of(context, token);
   const auto limit = [&](std::uint64_t value) { return limited ? or_none(value) : std::nullopt; };
   std::vector<Quota> list;
+  list.reserve(std::size(rows) + 1);
   for (const auto& row : rows) list.push_back({row.name, usage.*row.used, limit(security.token_limits.*row.limit)});
   list.push_back({uploads, security.uploads->of(token), limit(security.token_limits.uploads)});
   return list;

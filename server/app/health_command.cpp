@@ -41,7 +41,7 @@ client::ServerAddress server_of(const HealthOptions& options) {
 }
 
 void check_health(const HealthOptions& options) {
-  constexpr std::size_t longest_answer = 64 * 1024;
+  constexpr std::size_t longest_answer = std::size_t{64} * 1024;
   const client::HttpLimits limits{.max_body = longest_answer, .timeout = std::chrono::seconds(options.timeout)};
   const client::HttpClient client(server_of(options), limits);
   const auto answer = client.get(options.path);

@@ -16,7 +16,7 @@ InstalledFiles installed_files() {
 }
 
 std::filesystem::path sample_head_file() {
-  const auto installed = installed_files().sample;
+  auto installed = installed_files().sample;
   if (!installed.empty()) return installed;
   const auto folder = std::filesystem::path(jobs::own_executable()).parent_path().parent_path();
   std::error_code error;

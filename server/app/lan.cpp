@@ -98,7 +98,7 @@ std::vector<std::string> network_urls(std::span<const net::Listener> listeners, 
 
 net::TlsFiles self_signed_certificate(const std::filesystem::path& data, const std::vector<std::string>& names) {
   const auto& [certificate, key] = store::home_certificate_files;
-  const net::TlsFiles files{data / certificate, data / key};
+  net::TlsFiles files{data / certificate, data / key};
   const auto folder = files.certificate.parent_path();
   std::error_code error;
   std::filesystem::create_directories(folder, error);

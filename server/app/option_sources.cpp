@@ -12,7 +12,7 @@
 namespace semblante {
 namespace {
 
-constexpr std::size_t max_file_bytes = 1024 * 1024;
+constexpr std::size_t max_file_bytes = std::size_t{1024} * 1024;
 
 /// Help as CLI11 writes it, with the variables that were taken from it.
 class HelpWithVariables : public CLI::Formatter {
@@ -30,7 +30,7 @@ class HelpWithVariables : public CLI::Formatter {
 };
 
 bool is_setting(const CLI::Option& option) {
-  const auto name = option.get_single_name();
+  const auto& name = option.get_single_name();
   return !option.get_lnames().empty() && name != "help" && name != "config" && name != "print-config";
 }
 
@@ -72,7 +72,7 @@ std::string value_of(const CLI::Option& option) {
 }  // namespace
 
 std::shared_ptr<OptionSources> OptionSources::declare(CLI::App& command, Offers offers) {
-  const std::shared_ptr<OptionSources> sources(new OptionSources(command));
+  std::shared_ptr<OptionSources> sources(new OptionSources(command));
   if (offers != Offers::environment)
     command
         .add_option("--config", sources->file_,

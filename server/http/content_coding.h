@@ -22,7 +22,7 @@ bool wants_coding(const Request& request, std::string_view coding);
 void mark_coding(Response& response, std::string_view coding);
 
 /// The largest body that gzip_body() compresses, bytes.
-inline constexpr std::uint64_t max_gzip_bytes = 4 * 1024 * 1024;
+inline constexpr std::uint64_t max_gzip_bytes = std::uint64_t{4} * 1024 * 1024;
 
 /// Compresses the body of a 200, a file or bytes. Blocks; not for I/O threads. Throws std::system_error when the file
 /// cannot be read.

@@ -48,7 +48,7 @@ std::string query_names(const Json& document, const Operation& operation) {
 constexpr auto& scopes = access::scope_names;
 
 std::string scope_of(const Operation& operation) {
-  const auto scope = operation.json->value("x-scope", std::string());
+  auto scope = operation.json->value("x-scope", std::string());
   if (std::find(scopes.begin(), scopes.end(), scope) == scopes.end())
     throw std::runtime_error(operation.function + ": x-scope must be none, read, publish, edit or admin");
   const bool is_open = operation.json->contains("security") && operation.json->at("security").empty();
