@@ -35,7 +35,7 @@ export const portuguese = {
   Expressions: 'Expressões',
   Position: 'Posição',
   'Choose a .json or .fap file': 'Escolha um arquivo .json ou .fap',
-  'or drop it': 'ou solte-o aqui',
+  'or drop it': 'ou solte aqui',
   Pause: 'Pausar',
   Play: 'Tocar',
   Loop: 'Repetir',
