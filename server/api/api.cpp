@@ -48,14 +48,15 @@ std::string in_words(std::span<const std::string_view> words, std::string_view l
 /// scrapers, which ask outside of /v1/, may add their own.
 std::optional<http::Response> refuse_unknown_query(const Route& route, const http::Request& head) {
   if (!route.pattern.starts_with("/v1/")) return std::nullopt;
-  for (const auto& [name, value] : head.query) {
-    if (name == "ticket" || std::find(route.query.begin(), route.query.end(), name) != route.query.end()) continue;
-    const auto known =
-        route.query.empty() ? std::string("this route has none") : "this route has " + in_words(route.query, " and ");
-    return to_response(
-        make_problem("invalid-argument", "there is no parameter \"" + name + "\" here; " + known, "?" + name));
-  }
-  return std::nullopt;
+  const auto is_unknown = [&](const auto& parameter) {
+    return parameter.first != "ticket" && std::ranges::find(route.query, parameter.first) == route.query.end();
+  };
+  const auto unknown = std::ranges::find_if(head.query, is_unknown);
+  if (unknown == head.query.end()) return std::nullopt;
+  const auto known =
+      route.query.empty() ? std::string("this route has none") : "this route has " + in_words(route.query, " and ");
+  return to_response(make_problem("invalid-argument", "there is no parameter \"" + unknown->first + "\" here; " + known,
+                                  "?" + unknown->first));
 }
 
 http::BodyPlan plan_body(const Route& route, std::string_view media_type, const ApiLimits& limits) {

@@ -160,7 +160,7 @@ ListenOptions listening_at_home(ListenOptions options, const std::filesystem::pa
 
 /// A token for this run of `serve --lan`; those of earlier runs end. Prints how a phone gets in.
 void invite(store::TokenStore& tokens, std::uint16_t port) {
-  constexpr std::int64_t life = 12 * 3600;  // seconds
+  constexpr std::int64_t life = std::int64_t{12} * 3600;  // seconds
   const std::string name = "serve --lan";
   for (const auto& token : tokens.tokens())
     if (token.name == name) tokens.remove_token(token.id);

@@ -92,7 +92,7 @@ Fapu fapu_of(const HeadOptions& options) {
   FapuLengths lengths;
   for (const std::string& text : options.fapu) {
     const auto refuse = [&](const std::string& why) {
-      throw CommandFailure(CommandFailure::bad_input, "--fapu: '" + text + "': " + why);
+      throw CommandFailure(CommandFailure::bad_input, std::string("--fapu: '").append(text).append("': ").append(why));
     };
     const std::size_t sign = text.find('=');
     if (sign == std::string::npos) refuse("it must be NAME=LENGTH, such as ES=62.5");
