@@ -34,7 +34,7 @@ class OutboxStream {
       : socket_(std::move(socket)),
         tls_(std::move(tls)),
         outbox_(std::move(outbox)),
-        guard_(std::move(guard)),
+        guard_(guard),
         on_flood_(std::move(on_flood)) {}
 
   executor_type get_executor() { return socket_.get_executor(); }

@@ -219,7 +219,7 @@ void Server::stop_on_signals(bool at_hangup) {
   });
 }
 
-void Server::reload_on_signal(std::function<void()> reload) {
+void Server::reload_on_signal(const std::function<void()>& reload) {
   state_->hangup.add(SIGHUP);
   struct Step {
     static void wait(const std::shared_ptr<State>& state, const std::function<void()>& reload) {

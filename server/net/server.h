@@ -98,7 +98,7 @@ class Server {
   /// which a closed terminal sends, calls stop() too, unless it is ignored, as nohup does.
   void stop_on_signals(bool at_hangup);
   /// SIGHUP calls `reload` on a worker thread while run() runs.
-  void reload_on_signal(std::function<void()> reload);
+  void reload_on_signal(const std::function<void()>& reload);
 
   [[nodiscard]] ServerCounts counts() const;
 

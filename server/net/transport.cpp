@@ -34,7 +34,8 @@ struct Transport::Timed {
 Transport::Transport(tcp::socket socket, std::shared_ptr<TlsSession> tls)
     : timed_(std::make_shared<Timed>(std::move(socket))), tls_(std::move(tls)) {}
 
-Transport::~Transport() {
+// Asio cancels and sets its timers without a fault.
+Transport::~Transport() {  // NOLINT(bugprone-exception-escape)
   if (!timed_) return;
   timed_->timer.cancel();
   boost::system::error_code ignored;
@@ -62,7 +63,9 @@ class Transport::Limited {
       late->socket.cancel(ignored);
     });
   }
-  ~Limited() { timed_->timer.expires_at(asio::steady_timer::time_point::max()); }
+  ~Limited() {  // NOLINT(bugprone-exception-escape): as above
+    timed_->timer.expires_at(asio::steady_timer::time_point::max());
+  }
   Limited(const Limited&) = delete;
   Limited& operator=(const Limited&) = delete;
 

@@ -23,7 +23,7 @@ class Transport {
 
   /// `tls` may be null: bytes are sent as they are.
   Transport(boost::asio::ip::tcp::socket socket, std::shared_ptr<TlsSession> tls);
-  ~Transport();
+  ~Transport();  // NOLINT(bugprone-exception-escape): see the definition
   Transport(const Transport&) = delete;
   Transport& operator=(const Transport&) = delete;
 

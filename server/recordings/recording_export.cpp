@@ -169,7 +169,7 @@ Status export_arkit_csv(SharedReader reader, const Cut& cut, std::ostream& to) {
   });
 }
 
-Status export_sound(SharedReader reader, const Cut& cut, std::ostream& to) {
+Status export_sound(const SharedReader& reader, const Cut& cut, std::ostream& to) {
   RecordingSoundCursor cursor(reader, cut.from);
   const auto in_cut = [&] { return cursor.packet() != nullptr && cursor.packet()->media_time <= cut.to; };
   if (!in_cut() && !cursor.error()) return Error{ErrorCode::empty, "", "there is no sound in it"};

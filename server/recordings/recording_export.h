@@ -63,6 +63,6 @@ Status export_frames(std::shared_ptr<const RecordingReader> reader, const Cut& c
 Status export_arkit_csv(std::shared_ptr<const RecordingReader> reader, const Cut& cut, std::ostream& to);
 /// The sound as Ogg/Opus on the clock of the faces of the same cut; written chunk by chunk, for any length. Empty when
 /// no sound begins in the cut.
-Status export_sound(std::shared_ptr<const RecordingReader> reader, const Cut& cut, std::ostream& to);
+Status export_sound(const std::shared_ptr<const RecordingReader>& reader, const Cut& cut, std::ostream& to);
 
 }  // namespace semblante::recordings

@@ -79,7 +79,8 @@ class Copies {
       bytes += size;
     }
     const std::string what = kind_ == DataFileKind::blob ? "blob " : "recording ";
-    for (const auto& [name, reason] : faults_) faults.push_back(what + name + ": " + reason);
+    for (const auto& [name, reason] : faults_)
+      faults.push_back(std::string(what).append(name).append(": ").append(reason));
   }
 
  private:

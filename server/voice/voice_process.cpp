@@ -39,7 +39,7 @@ class ErrorFile {
   std::filesystem::path path_;
 };
 
-std::string with_last_words(std::string message, const std::string& words) {
+std::string with_last_words(const std::string& message, const std::string& words) {
   const auto last = words.substr(words.rfind('\n') == std::string::npos ? 0 : words.rfind('\n') + 1);
   return last.empty() ? message : message + ": " + printable(last);
 }

@@ -92,11 +92,11 @@ Status check_language(std::string_view language) {
 }
 
 Status check(const VoiceRequest& request) {
-  if (const auto checked = check_text(request.text); !checked) return checked;
+  if (auto checked = check_text(request.text); !checked) return checked;
   if (request.ssml) {
-    if (const auto checked = check_ssml(request.text); !checked) return checked;
+    if (auto checked = check_ssml(request.text); !checked) return checked;
   }
-  if (const auto checked = check_language(request.language); !checked) return checked;
+  if (auto checked = check_language(request.language); !checked) return checked;
   if (!is_name(request.voice)) return Error{ErrorCode::invalid_argument, "voice", "takes letters, digits, -, _ and +"};
   for (const auto& [name, value] : {std::pair{"rate", request.rate}, std::pair{"pitch", request.pitch}})
     if (!is_factor(value)) return Error{ErrorCode::out_of_range, name, "must be 0.5 to 2"};
