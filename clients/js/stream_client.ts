@@ -18,7 +18,7 @@ import { ProtocolError } from '../../protocol/ts/protocol_error.ts';
 import { standardQuantizers, type QuantizerSteps } from '../../protocol/ts/quantizers.ts';
 import { Emitter } from './emitter.ts';
 import { readFrame, writeFrame } from './frames.ts';
-import { loadUnpacking, type UnpackText } from './speech/library.ts';
+import type { UnpackText } from './speech/library.ts';
 import {
   clockLayout,
   errorLayout,
@@ -531,7 +531,8 @@ export class StreamClient extends Emitter<StreamEvents> {
     if (this.unpack) return this.take(this.unpack(packed) ?? packed); // what is none, the stream refuses
     const { socket } = this;
     const waiting = (this.waiting = [packed]);
-    void loadUnpacking()
+    void import('./speech/library.ts')
+      .then(({ loadUnpacking }) => loadUnpacking())
       .catch(() => null)
       .then((unpack) => {
         if (this.waiting !== waiting || this.socket !== socket) return; // another connection

@@ -1,9 +1,8 @@
-import { execFile } from 'node:child_process';
+import { execFile, execFileSync } from 'node:child_process';
 import { mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, statSync, symlinkSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { promisify } from 'node:util';
-import { gzipSync } from 'node:zlib';
 import { build, createServer } from 'vite';
 import { afterAll, beforeAll, expect, test } from 'vitest';
 import { buildDir, root } from './support/paths.ts';
@@ -40,13 +39,16 @@ afterAll(async () => {
 const files = (folder: string): string[] =>
   (readdirSync(folder, { recursive: true }) as string[]).filter((name) => statSync(join(folder, name)).isFile());
 
+/** As gzip makes it: Node's own zlib is Chromium's, whose files are 1 % larger. */
+const gzipBytes = (file: string): number => execFileSync('gzip', ['-9nc', file]).length;
+
 /** A module with all that it imports from its own package, gzipped. */
 function gzipped(entry: string, seen = new Set<string>()): number {
   if (seen.has(entry)) return 0;
   seen.add(entry);
   const text = readFileSync(join(unpacked, 'dist', entry), 'utf8');
   const imports = [...text.matchAll(/(?:from|import)"\.\/([^"]+\.js)"/g)].map(([, name]) => name!);
-  return gzipSync(text, { level: 9 }).length + imports.reduce((sum, name) => sum + gzipped(name, seen), 0);
+  return gzipBytes(join(unpacked, 'dist', entry)) + imports.reduce((sum, name) => sum + gzipped(name, seen), 0);
 }
 
 test('Package_HasModulesAndDeclarations_AndNoSources', () => {
@@ -104,7 +106,7 @@ face.addEventListener('mine', (event) => console.log(event.type));
 });
 
 test('Package_ClientWithLibrary_IsAtMost60kBGzipped', () => {
-  const library = gzipSync(readFileSync(join(unpacked, 'dist/semblante_view.wasm')), { level: 9 }).length;
+  const library = gzipBytes(join(unpacked, 'dist/semblante_view.wasm'));
   expect(gzipped('index.js') + library).toBeLessThanOrEqual(60_000);
 });
 
