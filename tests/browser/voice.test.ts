@@ -115,7 +115,7 @@ test('BrowsersVoice_SaysTheText_AndTheFaceSpeaksWithoutFrames', async () => {
     ['This is a wide open mouth, mama!', 'en-GB'],
   ]);
   expect(got(128)).toBe(frames);
-  expect(got(11)).toBe(2);
+  expect(got(13)).toBe(2);
   expect(got(10)).toBe(0);
   expect(sent(12)).toBeGreaterThanOrEqual(3); // ready, a word, the end of the first text
 });
@@ -152,6 +152,6 @@ test('BrowserWithoutVoices_ShowsTheFramesAsBefore', async () => {
   expect(await page.locator('semblante-face').getByRole('button', { name: /Voice/ }).count()).toBe(0);
   await say('Good morning to all of you.');
   await expect.poll(() => got(128), { timeout: 15_000 }).toBeGreaterThan(5);
-  expect(got(11)).toBe(0);
+  expect(got(13)).toBe(0);
   expect(sent(12)).toBe(0);
 });
