@@ -13,6 +13,7 @@
 
 #include "core/geometry/triangle_shape.h"
 #include "core/materials/eye_texture.h"
+#include "core/materials/painted_primitives.h"
 #include "core/materials/plain_materials.h"
 
 namespace semblante {
@@ -285,27 +286,6 @@ class CornerUvs {
   std::map<std::pair<float, float>, std::uint32_t> of_place_;
 };
 
-/// Divides the primitives where the paint changes.
-std::vector<Primitive> divided(const Model& model, std::span<const PaintedTriangle> painted, int eye_material,
-                               int cornea_material) {
-  std::vector<Primitive> runs;
-  for (const Primitive& primitive : model.primitives) {
-    const std::uint32_t end = primitive.first_triangle + primitive.triangle_count;
-    for (std::uint32_t t = primitive.first_triangle; t < end;) {
-      Primitive run = primitive;
-      run.first_triangle = t;
-      const Paint paint = painted[t].paint;
-      while (t < end && painted[t].paint == paint) ++t;
-      run.triangle_count = t - run.first_triangle;
-      if (paint == Paint::eye) run.material = eye_material;
-      if (paint == Paint::cornea) run.material = cornea_material;
-      runs.push_back(std::move(run));
-    }
-    if (primitive.triangle_count == 0) runs.push_back(primitive);
-  }
-  return runs;
-}
-
 }  // namespace
 
 EyeLook eyes_of(const Rig& rig) {
@@ -397,7 +377,10 @@ void paint_eyes(Model& model, const Surface& surface, std::span<const Part> part
     cornea = add_material("eye white", cornea_texture(span));
     model.materials.back().alpha_mode = Material::AlphaMode::mask;
   }
-  model.primitives = divided(model, painted, eye, cornea);
+  model.primitives = painted_primitives(model, [&](const Primitive&, std::uint32_t t) -> std::optional<int> {
+    if (painted[t].paint == Paint::none) return std::nullopt;
+    return painted[t].paint == Paint::eye ? eye : cornea;
+  });
 }
 
 }  // namespace semblante

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/materials/painted_primitives.h"
 #include "core/materials/plain_materials.h"
 
 namespace semblante {
@@ -19,32 +20,23 @@ bool is_plain_skin(const Model& model, const Primitive& primitive, PartRole role
 
 void paint_mouth(Model& model, const Surface& surface, std::span<const Part> parts, const std::vector<bool>& inside) {
   if (inside.empty()) return;
-  const auto is_painted = [&](const Primitive& primitive, const Triangle& t) {
-    const bool lies_inside = std::all_of(
-        t.begin(), t.end(), [&](std::uint32_t corner) { return inside[surface.surface_of[corner].value()]; });
-    return lies_inside &&
-           is_plain_skin(model, primitive, parts[surface.part_of[surface.surface_of[t[0]].value()].value()].role);
-  };
   const auto mouth = static_cast<int>(model.materials.size());
   bool is_any_painted = false;
-  std::vector<Primitive> runs;
-  for (const Primitive& primitive : model.primitives) {
-    const std::uint32_t end = primitive.first_triangle + primitive.triangle_count;
-    for (std::uint32_t t = primitive.first_triangle; t < end;) {
-      Primitive run = primitive;
-      run.first_triangle = t;
-      const bool painted = is_painted(primitive, model.triangles[t]);
-      while (t < end && is_painted(primitive, model.triangles[t]) == painted) ++t;
-      run.triangle_count = t - run.first_triangle;
-      if (painted) run.material = mouth;
-      is_any_painted = is_any_painted || painted;
-      runs.push_back(std::move(run));
-    }
-    if (primitive.triangle_count == 0) runs.push_back(primitive);
-  }
+  const auto paint_of = [&](const Primitive& primitive, std::uint32_t t) -> std::optional<int> {
+    const Triangle& triangle = model.triangles[t];
+    const bool lies_inside = std::all_of(triangle.begin(), triangle.end(), [&](std::uint32_t corner) {
+      return inside[surface.surface_of[corner].value()];
+    });
+    if (!lies_inside) return std::nullopt;
+    const Part& part = parts[surface.part_of[surface.surface_of[triangle[0]].value()].value()];
+    if (!is_plain_skin(model, primitive, part.role)) return std::nullopt;
+    is_any_painted = true;
+    return mouth;
+  };
+  auto painted = painted_primitives(model, paint_of);
   if (!is_any_painted) return;
   model.materials.push_back(plain_material(Plain::mouth));
-  model.primitives = std::move(runs);
+  model.primitives = std::move(painted);
 }
 
 }  // namespace semblante
