@@ -1,6 +1,7 @@
 import { frameLayout, momentLayout, playerOptionsLayout, playerStatisticsLayout } from './generated/layouts.ts';
 import { Runtime } from './runtime.ts';
-import type { StreamClient, StreamClock } from './stream_client.ts';
+import type { StreamClient } from './stream_client.ts';
+import type { StreamClock } from './stream_clock.ts';
 
 /** The part of the kernel that the player uses: poses by number. */
 export interface PoseMaker {

@@ -20,7 +20,6 @@ import { Emitter } from './emitter.ts';
 import { readFrame, writeFrame } from './frames.ts';
 import type { UnpackText } from './speech/library.ts';
 import {
-  clockLayout,
   errorLayout,
   eventLayout,
   headerLayout,
@@ -28,6 +27,8 @@ import {
   timedFrameLayout,
 } from './generated/layouts.ts';
 import { Runtime } from './runtime.ts';
+import { StreamClock } from './stream_clock.ts';
+import { StreamMemory } from './stream_memory.ts';
 
 export type ConnectionState = 'connecting' | 'open' | 'waiting' | 'closed';
 
@@ -161,97 +162,6 @@ export function streamUrl(baseUrl: string, streamId: string): string {
   return `${baseUrl.replace(/^http/, 'ws').replace(/\/$/, '')}/v1/streams/${encodeURIComponent(streamId)}`;
 }
 
-/** The library's side of a client: the handle of its stream, and memory for what is passed. */
-export class StreamMemory {
-  readonly stream: number;
-  readonly event: number;
-  readonly header: number;
-  readonly clock: number;
-  /** for results by pointer */
-  readonly result: number;
-  /** Received bytes and published frames: grows to the largest. */
-  private buffer = 0;
-  private capacity = 0;
-
-  constructor(
-    readonly runtime: Runtime,
-    options: (view: DataView, at: number) => void,
-  ) {
-    const { semblante_stream_create: create } = runtime.functions;
-    this.stream = runtime.create(streamOptionsLayout.bytes, options, create);
-    this.result = runtime.alloc(8);
-    this.event = runtime.struct(eventLayout.bytes);
-    this.header = runtime.struct(headerLayout.bytes);
-    this.clock = runtime.struct(clockLayout.bytes);
-  }
-
-  room(bytes: number): number {
-    if (bytes > this.capacity) {
-      this.runtime.free(this.buffer);
-      this.capacity = 0;
-      this.buffer = this.runtime.alloc(Math.ceil(bytes / 4096) * 4096);
-      this.capacity = Math.ceil(bytes / 4096) * 4096;
-    }
-    return this.buffer;
-  }
-
-  release(): void {
-    this.runtime.functions.semblante_stream_destroy(this.stream);
-    for (const at of [this.event, this.header, this.clock, this.result, this.buffer]) this.runtime.free(at);
-  }
-}
-
-/** The estimate of a stream's clock. Times in ms; NaN until they are known. */
-export class StreamClock {
-  constructor(
-    private readonly memory: () => StreamMemory | null,
-    private readonly now: () => number,
-  ) {}
-
-  /** The stream's clock at the client's time `local`. */
-  at(local: number): number {
-    return this.read(clockLayout.media_time, local);
-  }
-
-  /** The stream's clock now. */
-  get mediaTime(): number {
-    return this.at(this.now());
-  }
-
-  /** Bound of the estimate's error. */
-  get uncertainty(): number {
-    return this.read(clockLayout.uncertainty);
-  }
-
-  /** Of the newest answer. */
-  get roundTrip(): number {
-    return this.read(clockLayout.round_trip);
-  }
-
-  /** How much faster the stream's clock runs than the client's, ms per ms; 0 until it is known. */
-  get drift(): number {
-    return this.read(clockLayout.drift) || 0;
-  }
-
-  /** Number of detected clock steps: a clock was set, or a machine slept. */
-  get steps(): number {
-    const memory = this.ask(this.now());
-    return memory === null ? 0 : memory.runtime.view.getUint32(memory.clock + clockLayout.steps, true);
-  }
-
-  private read(member: number, local = this.now()): number {
-    const memory = this.ask(local);
-    return memory === null ? NaN : memory.runtime.view.getFloat64(memory.clock + member, true);
-  }
-
-  private ask(local: number): StreamMemory | null {
-    const memory = this.memory();
-    if (memory === null) return null;
-    const { functions } = memory.runtime;
-    return functions.semblante_stream_clock(memory.stream, local, memory.clock) === ok ? memory : null;
-  }
-}
-
 /**
  * A connection to one stream, as subscriber or publisher. Moves the bytes of a WebSocket; libsemblante reads and writes
  * them, comes back after a loss with growing pauses, and resumes the stream. All results and errors are events; nothing is
@@ -322,15 +232,21 @@ export class StreamClient extends Emitter<StreamEvents> {
     this.release = this.memory = null;
   }
 
+  /** The library's stream while it may send: the connection is open and not congested. */
+  private get clearMemory(): StreamMemory | null {
+    const isClear = this.state === 'open' && this.socket !== null && this.socket.bufferedAmount <= maxBufferedBytes;
+    return isClear ? this.memory : null;
+  }
+
   /**
    * Sends frames as a publisher. `mediaTime` in ms, 0: now; the times of the frames are relative to it. Returns false
    * and sends nothing while the stream is not open or the connection is congested.
    */
   publish(frames: readonly TimedFrame[], mediaTime = 0): boolean {
-    if (this.memory === null || this.state !== 'open' || !this.socket || frames.length === 0) return false;
-    if (this.socket.bufferedAmount > maxBufferedBytes || frames.length > limits.max_frames_per_message) return false;
-    const { runtime, stream } = this.memory;
-    const at = this.memory.room(frames.length * timedFrameLayout.bytes);
+    const memory = this.clearMemory;
+    if (memory === null || frames.length === 0 || frames.length > limits.max_frames_per_message) return false;
+    const { runtime, stream } = memory;
+    const at = memory.room(frames.length * timedFrameLayout.bytes);
     const { view } = runtime;
     frames.forEach(({ time, state }, i) => {
       const frame = at + i * timedFrameLayout.bytes;
@@ -348,10 +264,11 @@ export class StreamClient extends Emitter<StreamEvents> {
    * congested, or the server takes no sound.
    */
   publishSound(packet: Uint8Array, mediaTime: number): boolean {
-    if (this.memory === null || this.state !== 'open' || !this.socket || this.socket.bufferedAmount > maxBufferedBytes) return false;
-    const { runtime, stream } = this.memory;
-    const at = this.memory.room(packet.byteLength);
-    new Uint8Array(runtime.view.buffer).set(packet, at);
+    const memory = this.clearMemory;
+    if (memory === null) return false;
+    const { runtime, stream } = memory;
+    const at = memory.room(packet.byteLength);
+    runtime.bytes.set(packet, at);
     const result = runtime.functions.semblante_stream_publish_sound(stream, at, packet.byteLength, mediaTime);
     this.act();
     return result === ok;

@@ -1,3 +1,4 @@
+import { withBytes } from '../bytes.ts';
 import { Runtime, type Memory } from '../runtime.ts';
 import { bytesOf } from '../wasm.ts';
 
@@ -22,6 +23,7 @@ export function loadSpeakers(): Promise<SpeakerLibrary> {
 /** The plain form of a packed text (protocol/SPEC.md, section 5); null: it is none. */
 export type UnpackText = (packed: Uint8Array) => Uint8Array | null;
 
+/** Text, score and language at their limits (protocol/schema/messages.json), with what precedes them. */
 const largestPlain = 6100;
 let unpacking: Promise<UnpackText> | null = null;
 
@@ -30,10 +32,7 @@ export function loadUnpacking(load: () => Promise<SpeakerLibrary> = loadSpeakers
   unpacking ??= load().then((library) => {
     const plain = library.alloc(largestPlain);
     return (bytes) => {
-      const packed = library.alloc(bytes.length);
-      library.bytes.set(bytes, packed);
-      const size = library.functions.semblante_speaker_unpack(packed, bytes.length, plain, largestPlain);
-      library.free(packed);
+      const size = withBytes(library, bytes, (packed, length) => library.functions.semblante_speaker_unpack(packed, length, plain, largestPlain));
       return size === 0 ? null : library.bytes.slice(plain, plain + size);
     };
   });
