@@ -34,7 +34,7 @@ struct Transport::Timed {
 Transport::Transport(tcp::socket socket, std::shared_ptr<TlsSession> tls)
     : timed_(std::make_shared<Timed>(std::move(socket))), tls_(std::move(tls)) {}
 
-// Asio cancels and sets its timers without a fault.
+// Asio declares that cancelling or setting a timer may throw; its timers never do.
 Transport::~Transport() {  // NOLINT(bugprone-exception-escape)
   if (!timed_) return;
   timed_->timer.cancel();

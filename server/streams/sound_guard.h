@@ -19,8 +19,8 @@ class SoundGuard {
 
   explicit SoundGuard(Clock::time_point now) : bytes_(bytes_per_second, bytes_burst, now) {}
 
-  /// Returns how long the packet lasts, ms. Errors: `malformed` (no Opus packet), `out_of_range` (it begins before the
-  /// packet before it has ended), `too_large` (too many bytes).
+  /// Returns how long a packet lasts that a decoder has read, ms. Errors: `out_of_range` (it begins before the packet
+  /// before it has ended), `too_large` (too many bytes).
   Result<double> check(const SoundPacket& sound, Clock::time_point now);
 
  private:

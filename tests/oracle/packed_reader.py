@@ -32,7 +32,11 @@ class RangeDecoder:
         place = index_and_sizes[0] if index_and_sizes else 0
         for size, index in zip(index_and_sizes[1::2], index_and_sizes[2::2]):
             place = place * size + index
-        bound = self.range // 4096 * TABLES[name][place]
+        return self.chance(TABLES[name][place])
+
+    def chance(self, chance):
+        """A bit that is 1 with this chance, in 4096ths."""
+        bound = self.range // 4096 * chance
         value = int(self.code < bound)
         if value:
             self.range = bound

@@ -54,19 +54,6 @@ class Known:
         return self.next.pop(0)
 
 
-class Coded(RangeDecoder):
-    def chance(self, chance):
-        bound = self.range // 4096 * chance
-        value = int(self.code < bound)
-        if value:
-            self.range = bound
-        else:
-            self.code -= bound
-            self.range -= bound
-        self._renormalize()
-        return value
-
-
 class Model:
     def __init__(self, before=None):
         self.slots = [{} if before is None else dict(before.slots[i]) for i in range(6)]
@@ -201,7 +188,7 @@ def packed_text(data):
     source.u8("/type")
     speech, media_time = source.varint("/speech", GREATEST), source.varint("/media_time", GREATEST)
     try:
-        coder = Coded(data[source.at :], "/text")
+        coder = RangeDecoder(data[source.at :], "/text")
     except Refused:
         raise Refused("malformed", "/text") from None
     language, text, score = Model(PRIMED).message(coder)

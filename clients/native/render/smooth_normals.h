@@ -20,7 +20,7 @@ class SmoothNormals {
 
   /// `own`: #V, the normals of the file, of any length; zero where it has none. `group_of_triangle`: one value per
   /// triangle. Vertices at one place are joined only within a group, so that lashes do not affect the shading of a lid.
-  /// Their own normals may differ: hard edges stay hard.
+  /// Joined vertices may have different normals in the file, and keep them: hard edges stay hard.
   SmoothNormals(std::span<const glm::vec3> positions, std::vector<glm::vec3> own, std::span<const Triangle> triangles,
                 std::span<const std::uint8_t> group_of_triangle);
 

@@ -38,7 +38,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (std::size_t at = 0; at < size;) {
     const std::size_t length = std::min<std::size_t>(data[at], size - at - 1);
     const auto message = decoder.decode({data + at + 1, length});
-    if (length > 0 && data[at + 1] == packed_text_type) {  // only clients read it: protocol_packed_text
+    // Servers refuse packed texts, which only clients read; fuzz_protocol_packed_text reads them.
+    if (length > 0 && data[at + 1] == packed_text_type) {
       require(!message);
       at += 1 + length;
       continue;
