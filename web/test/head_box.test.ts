@@ -1,6 +1,6 @@
 import { CapsuleGeometry, BoxGeometry, CylinderGeometry, PlaneGeometry, SphereGeometry, type BufferGeometry } from 'three';
 import { expect, test } from 'vitest';
-import { findHead, headOfPoints, type Piece } from '../src/view/head_box.ts';
+import { findHead, framedHead, headOfPoints, type Box, type Piece } from '../src/view/head_box.ts';
 
 /** In metres, like a person: the head is 0.16 wide and reaches from 1.52 to 1.75. */
 function piece(geometry: BufferGeometry, y: number, x = 0): Piece {
@@ -46,6 +46,31 @@ test('findHead_OfWhatDoesNotStand_FindsNone', () => {
   expect(findHead(lying)).toBeNull();
   expect(findHead([piece(new PlaneGeometry(1, 1).rotateX(Math.PI / 2), 0)])).toBeNull();
   expect(findHead([])).toBeNull();
+});
+
+const eyeballs = (): [Piece, Piece] => [piece(new SphereGeometry(0.012, 8, 8), 1.635, 0.032), piece(new SphereGeometry(0.012, 8, 8), 1.635, -0.032)];
+
+/** The head of the figure above, with some room: not its shoulders, not its chest. */
+function expectTheHead({ min, max }: Box): void {
+  expect(max[1]).toBeGreaterThanOrEqual(1.74);
+  expect(max[1]).toBeLessThan(1.85);
+  expect(min[1]).toBeGreaterThan(1.42);
+  expect(min[1]).toBeLessThan(1.52);
+}
+
+test.each([
+  ['hair to the waist', piece(new CylinderGeometry(0.1, 0.2, 0.7, 16), 1.39)],
+  ['a hat as wide as the shoulders', piece(new CylinderGeometry(0.26, 0.26, 0.01, 24), 1.7)],
+])('framedHead_OfAStandingFigureWithEyes_IsAroundThemWhereTheOutlineShowsNoHead: %s', (_, worn) => {
+  const figure = [skull(32), neck(), torso(), legs(), worn];
+  expect(framedHead(figure)).toBeNull();
+  expectTheHead(framedHead(figure, eyeballs())!);
+});
+
+test('framedHead_WithEyes_TakesTheOutlineWhereItShowsAHeadAndAllOfABust', () => {
+  const figure = [skull(32), neck(), torso(), legs()];
+  expect(framedHead(figure, eyeballs())).toEqual(framedHead(figure));
+  expect(framedHead([skull(32), neck()], eyeballs())).toBeNull();
 });
 
 /** `count` points between a chin at 1.54 and `top`, 0.12 apart from left to right. */

@@ -71,11 +71,45 @@ export function findHead(pieces: readonly Piece[]): Box | null {
 /** Room below the chin, as a share of the head's height. */
 const belowChin = 0.08;
 
-/** The head as the camera shows it, with room below the chin; null where all of it is the head. */
-export function framedHead(pieces: readonly Piece[]): Box | null {
+/**
+ * The head as the camera shows it, with room below the chin; null where all of it is the head. `eyeballs`: the meshes of both eyes,
+ * where the model has them apart from its skin.
+ */
+export function framedHead(pieces: readonly Piece[], eyeballs: readonly [Piece, Piece] | null = null): Box | null {
   const found = findHead(pieces);
+  const eyes = eyeballs?.map((ball) => boxOf([ball], -Infinity)) as [Box, Box] | undefined;
+  const all = boxOf(pieces, -Infinity);
+  if (eyes && !(found && eyes.every((eye) => middleOf(eye, 1) > found.min[1]))) return headOfEyes(eyes, all);
   if (found) found.min[1] -= belowChin * (found.max[1] - found.min[1]);
   return found;
+}
+
+/** What a head with its hair needs around the middle of its eyes, in distances of the eyes. */
+const aroundEyes = { side: 1.3, up: 1.8, down: 2, forward: 0.4, back: 1.6 };
+/** The least distance of the eyes in diameters of an eyeball: a drawn figure has large eyes near to each other. */
+const leastApart = 2.5;
+/** A figure that is at most so many times as tall as the head by its eyes is a head or a bust, and seen whole. */
+const mostOfAHead = 2;
+
+/**
+ * The head of a figure whose outline does not show it, because hair hides the neck or a hat is as wide as the shoulders: around its eyes,
+ * as large as a person's. Null where that is about all of it.
+ */
+export function headOfEyes(eyes: readonly [Box, Box], all: Box): Box | null {
+  const sizes = eyes.map(({ min, max }) => max[1] - min[1]);
+  const apart = Math.hypot(...([0, 1, 2] as const).map((axis) => middleOf(eyes[0], axis) - middleOf(eyes[1], axis)));
+  const unit = Math.max(apart, leastApart * Math.max(...sizes));
+  const height = (aroundEyes.up + aroundEyes.down) * unit;
+  if (!(height > 0) || all.max[1] - all.min[1] <= mostOfAHead * height) return null;
+  const [x, y, z] = ([0, 1, 2] as const).map((axis) => (middleOf(eyes[0], axis) + middleOf(eyes[1], axis)) / 2) as [number, number, number];
+  return {
+    min: [x - aroundEyes.side * unit, y - aroundEyes.down * unit, z - aroundEyes.back * unit],
+    max: [x + aroundEyes.side * unit, y + aroundEyes.up * unit, z + aroundEyes.forward * unit],
+  };
+}
+
+function middleOf({ min, max }: Box, axis: 0 | 1 | 2): number {
+  return (min[axis] + max[axis]) / 2;
 }
 
 /** Feature points from which on they reach from the chin to the top of the skull; fewer lie between brows and chin. */

@@ -17,7 +17,7 @@ import { defaultMaterial, studioMaterial } from '@client/three/studio_material.t
 import type { PartRole } from '@protocol/rig_document.ts';
 import { disposeMaterials } from './dispose_materials.ts';
 import { pickThrough, type Meeting } from './pick_through.ts';
-import { framedHead, type Box } from './head_box.ts';
+import { framedHead, type Box, type Piece } from './head_box.ts';
 import { meantCorner, moveToEdge } from './triangle_place.ts';
 
 /** A place on the surface: a vertex of the file, by number, or a place between vertices, with null. */
@@ -128,16 +128,22 @@ export class PreviewView {
     }
   }
 
-  /** The box of the head, with room below the chin, where it is a part of a body or a bust; otherwise null. */
-  head(): Box | null {
-    return framedHead(
-      this.meshes.map((mesh) => {
-        const placed = mesh.geometry.getAttribute('position').clone().applyMatrix4(mesh.matrixWorld);
-        const positions = Float32Array.from({ length: placed.count * 3 }, (_, i) => placed.getComponent(Math.floor(i / 3), i % 3));
-        const triangles = mesh.geometry.index?.array ?? Uint32Array.from({ length: placed.count }, (_, i) => i);
-        return { positions, triangles };
-      }),
-    );
+  /** The box of the head, with room below the chin, where it is a part of a body or a bust; otherwise null. `roleOf`: see Meant. */
+  head(roleOf: Meant['roleOf']): Box | null {
+    const eyes: Record<'left_eye' | 'right_eye', number[]> = { left_eye: [], right_eye: [] };
+    const pieces = this.meshes.map(({ geometry, matrixWorld }) => {
+      const placed = geometry.getAttribute('position').clone().applyMatrix4(matrixWorld);
+      const positions = Float32Array.from({ length: placed.count * 3 }, (_, i) => placed.getComponent(Math.floor(i / 3), i % 3));
+      for (let i = 0; i < placed.count && geometry.hasAttribute('_part'); i += 1) {
+        const role = roleOf(partOf(geometry, i));
+        if (role === 'left_eye' || role === 'right_eye') eyes[role].push(...positions.subarray(i * 3, i * 3 + 3));
+      }
+      const triangles = geometry.index?.array ?? Uint32Array.from({ length: placed.count }, (_, i) => i);
+      return { positions, triangles };
+    });
+    const ball = (positions: number[]): Piece => ({ positions, triangles: [] });
+    const hasEyes = eyes.left_eye.length > 0 && eyes.right_eye.length > 0;
+    return framedHead(pieces, hasEyes ? [ball(eyes.left_eye), ball(eyes.right_eye)] : null);
   }
 
   /**

@@ -323,8 +323,10 @@ export class SceneView {
       this.performer.set(null);
     }
     this.wireframe = this.wire;
-    if (another && preview) this.stage.frameObject(preview.object, preview.head());
-    else if (another && face) {
+    if (another && preview) {
+      const roles = new Map(model.parts.map(({ index, role }) => [index, role]));
+      this.stage.frameObject(preview.object, preview.head((part) => roles.get(part) ?? null));
+    } else if (another && face) {
       const { positions, indices } = face.view.mesh;
       this.stage.frameObject(face.view.object, framedHead([{ positions, triangles: indices }]));
     }
