@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
+#include <set>
 #include <string_view>
 
 #include <glm/geometric.hpp>
@@ -35,6 +37,8 @@ constexpr double joint_behind_chin = 0.2;      ///< at least
 constexpr double joint_far_behind_chin = 2.5;  ///< at most
 constexpr double head_joint_below_chin = 0.5;  ///< the head's joint is at most this far below the chin
 constexpr double joint_from_shoulders = 0.75;  ///< farther from the neck's joint no shoulders begin
+constexpr double near_skull = 0.5;             ///< what is worn on the head is so near to the skin above the eyes,
+constexpr double least_on_head = 0.05;         ///< with at least this part of its vertices
 constexpr double full_from =
     0.98;  ///< of the way from the shoulders (0) to the head (1): from there vertices turn fully
 
@@ -92,11 +96,14 @@ std::optional<Landmarks> landmarks_of(const FeaturePointSet& points, std::span<c
   return marks;
 }
 
-/// Whether a place is above the line from the chin to the nape, seen from the side.
+/// y of the line from the chin to the nape, seen from the side, at this z.
+double jaw_line(const Landmarks& marks, double z) {
+  const double t = (z - marks.chin.z) / (marks.nape.z - marks.chin.z);
+  return marks.chin.y + std::clamp(t, 0.0, 1.0) * (marks.nape.y - marks.chin.y);
+}
+
 bool above_jaw(const Landmarks& marks, const glm::dvec3& p) {
-  const double t = (p.z - marks.chin.z) / (marks.nape.z - marks.chin.z);
-  const double line = marks.chin.y + std::clamp(t, 0.0, 1.0) * (marks.nape.y - marks.chin.y);
-  return p.y >= line - above_line * marks.height;
+  return p.y >= jaw_line(marks, p.z) - above_line * marks.height;
 }
 
 /// The vertices of the head: those above the jaw that are joined to the face above it, so that raised hands are none.
@@ -282,6 +289,18 @@ double share_of_turn(double way, const Neck& neck, const glm::dvec3& p) {
 
 std::uint8_t in_255ths(double share) { return static_cast<std::uint8_t>(std::lround(255.0 * share)); }
 
+bool reaches_below(const Surface& surface, PartId part, double height) {
+  const auto members = surface.members_of(part);
+  return std::any_of(members.begin(), members.end(),
+                     [&](SurfaceVertexId v) { return surface.positions[v.value()].y < height; });
+}
+
+/// The share of the head's turn of hair that lies on the shoulders: all of it above the jaw, nothing below the neck.
+double turn_by_height(const Landmarks& marks, const Neck& neck, const glm::dvec3& p) {
+  const double way = (p.y - neck.shoulders) / (jaw_line(marks, p.z) - neck.shoulders);
+  return share_of_turn(std::clamp(way, 0.0, 1.0), neck, p);
+}
+
 /// The parts that are skin of the face: those with the role, so that a face of several surfaces turns alike.
 std::vector<bool> skin_of(const Surface& surface, std::span<const Part> parts) {
   std::vector<bool> is_skin(surface.vertex_count());
@@ -313,6 +332,40 @@ bool hangs_on_body(const Surface& surface, PartId part, const NearestPoint& skin
 
 bool may_be_body(const Part& part) {
   return !part.role_by_user && (part.role == PartRole::attached || part.role == PartRole::rest);
+}
+
+/// By part: whether it is worn on the head, as hair is that reaches down to the waist. Parts of one name decide
+/// together, because hair consists of strands, but those of the skin's name.
+std::vector<bool> worn_on_head(const Surface& surface, std::span<const Part> parts, const NearestPoint& skin,
+                               std::span<const std::uint8_t> turn_of_skin, const Landmarks& marks) {
+  std::set<std::string_view> names_of_skin = {""};
+  for (const Part& part : parts) {
+    if (part.role == PartRole::skin) names_of_skin.insert(part.name);
+  }
+  struct Count {
+    std::size_t vertices = 0, on_head = 0;
+  };
+  std::map<std::string_view, Count> by_name;
+  std::vector<Count> counts(parts.size());
+  for (std::uint32_t p = 0; p < parts.size(); ++p) {
+    if (!may_be_body(parts[p])) continue;
+    for (const SurfaceVertexId v : surface.members_of(PartId(p))) {
+      ++counts[p].vertices;
+      const glm::dvec3& place = surface.positions[v.value()];
+      if (place.y < marks.chin.y + marks.height) continue;
+      const NearestPoint::Hit below = skin.nearest(place);
+      if (below.distance < near_skull * marks.height && turn_of_skin[below.index] == 255) ++counts[p].on_head;
+    }
+    Count& named = by_name[parts[p].name];
+    named.vertices += counts[p].vertices;
+    named.on_head += counts[p].on_head;
+  }
+  std::vector<bool> worn(parts.size());
+  for (std::uint32_t p = 0; p < parts.size(); ++p) {
+    const Count& count = names_of_skin.count(parts[p].name) > 0 ? counts[p] : by_name[parts[p].name];
+    worn[p] = static_cast<double>(count.on_head) > least_on_head * static_cast<double>(count.vertices);
+  }
+  return worn;
 }
 
 }  // namespace
@@ -378,14 +431,26 @@ std::vector<std::uint8_t> turn_with_head(const Surface& surface, std::span<Part>
     skin.push_back(surface.positions[s]);
     turn_of_skin.push_back(turn[s]);
   }
-  std::optional<NearestPoint> nearest;  // made for the first part that needs it: most heads have none
+  // Made for the first part that needs them: most heads have none.
+  std::optional<NearestPoint> nearest;
+  std::vector<bool> worn;
   for (std::uint32_t p = 0; p < parts.size(); ++p) {
     if (may_be_body(parts[p]) && is_below_chin(surface, PartId(p), *marks)) {
-      if (!nearest) nearest.emplace(skin);
-      if (hangs_on_body(surface, PartId(p), *nearest, turn_of_skin)) parts[p].role = PartRole::body;
+      if (!nearest) {
+        nearest.emplace(skin);
+        worn = worn_on_head(surface, parts, *nearest, turn_of_skin, *marks);
+      }
+      if (!worn[p] && hangs_on_body(surface, PartId(p), *nearest, turn_of_skin)) parts[p].role = PartRole::body;
     }
-    if (parts[p].role != PartRole::body) continue;
-    for (const SurfaceVertexId v : surface.members_of(PartId(p))) turn[v.value()] = 0;
+    if (parts[p].role == PartRole::skin) continue;
+    const bool lies_on_shoulders = !neck->is_cut && reaches_below(surface, PartId(p), neck->shoulders);
+    for (const SurfaceVertexId v : surface.members_of(PartId(p))) {
+      if (parts[p].role == PartRole::body) {
+        turn[v.value()] = 0;
+      } else if (lies_on_shoulders) {
+        turn[v.value()] = in_255ths(turn_by_height(*marks, *neck, surface.positions[v.value()]));
+      }
+    }
   }
   return turn;
 }

@@ -145,13 +145,18 @@ class PlaceGuess {
     }
   }
 
-  void find_mouth() {
+  [[nodiscard]] std::optional<glm::dvec3> mouth_place() const {
     const std::optional<glm::dvec3> lips = mean_of(points_, {"2.2", "2.3"});
     std::optional<glm::dvec3> mouth = lips ? lips : mean_of(points_, {"8.3", "8.4"});
     if (!mouth && eyes_[0] && eyes_[1]) {
       mouth = 0.5 * (*eyes_[0] + *eyes_[1]) - glm::dvec3(0.0, share_of_es::mouth_below_eyes * es_, 0.0);
       mouth->z = skin_.high.z;
     }
+    return mouth;
+  }
+
+  void find_mouth() {
+    const std::optional<glm::dvec3> mouth = mouth_place();
     std::vector<std::size_t> inside;
     for (std::size_t p = 0; p < shapes_.size(); ++p) {
       if (!is_open(p)) continue;
@@ -251,12 +256,21 @@ class PlaceGuess {
     }
   }
 
+  /// Whether a part begins between eyes and mouth, reaches below this and lies on both sides of it: a beard in one
+  /// piece goes with the jaw. Hair begins above the eyes, a collar below the mouth.
+  [[nodiscard]] bool is_around_mouth(const PartShape& shape) const {
+    const std::optional<glm::dvec3> mouth = mouth_place();
+    if (!mouth || !eyes_[0] || !eyes_[1]) return false;
+    return shape.high.y < 0.5 * (eyes_[0]->y + eyes_[1]->y) && shape.high.y > mouth->y && shape.low.y < mouth->y &&
+           shape.low.x < mouth->x && shape.high.x > mouth->x &&
+           shape.high.z > mouth->z - share_of_es::mouth_half_height * es_;
+  }
+
   [[nodiscard]] bool may_be_attached(std::size_t p) const {
     const glm::dvec3 extent = shapes_[p].extent();
-    if (extent.x > share_of_es::attached_width * es_ || extent.y > share_of_es::attached_height * es_ ||
-        extent.z > share_of_es::attached_depth * es_) {
-      return false;
-    }
+    const bool is_large = extent.x > share_of_es::attached_width * es_ ||
+                          extent.y > share_of_es::attached_height * es_ || extent.z > share_of_es::attached_depth * es_;
+    if (is_large && !is_around_mouth(shapes_[p])) return false;
     double sum = 0.0;
     double most = 0.0;
     for (const glm::dvec3& v : shapes_[p].positions) {

@@ -204,6 +204,42 @@ TEST(TurnWithHead, TakesHairAlong_AndLeavesTheCollar) {
   for (const SurfaceVertexId v : figure.surface.members_of(hair_part)) EXPECT_EQ(figure.turn[v.value()], 255);
 }
 
+TEST(TurnWithHead, LetsLongHairLieStillOnTheShoulders) {
+  Figure figure(-4.0);
+  const auto ring_of = [](double top, double bottom, double radius) {
+    return revolution(top, bottom, [radius](double) { return radius; });
+  };
+  // Most of it is below the chin, and one strand is all there.
+  const std::uint32_t hair = testing::append(figure.model, ring_of(1.8, -3.5, 1.2), "hairdo");
+  const std::uint32_t strand = testing::append(figure.model, ring_of(-0.4, -3.4, 1.3), "hairdo");
+  const std::uint32_t shirt = testing::append(figure.model, ring_of(-0.4, -3.6, 2.2), "shirt");
+  figure.find();
+  const auto part_of = [&](std::uint32_t vertex) {
+    return figure.surface.part_of[figure.surface.surface_of[vertex].value()];
+  };
+  EXPECT_NE(figure.parts[part_of(hair).value()].role, PartRole::body);
+  EXPECT_NE(figure.parts[part_of(strand).value()].role, PartRole::body);
+  EXPECT_EQ(figure.parts[part_of(shirt).value()].role, PartRole::body);
+  const auto turn_at = [&](std::uint32_t first, std::uint32_t ring, std::uint32_t slice) {
+    return static_cast<int>(figure.turn[figure.surface.surface_of[first + ring * slices + slice].value()]);
+  };
+  for (const std::uint32_t slice : {0U, slices / 4, slices / 2}) {
+    int before = 255;
+    for (std::uint32_t ring = 0; ring <= 53; ++ring) {
+      const int turn = turn_at(hair, ring, slice);
+      EXPECT_LE(turn, before) << ring;
+      if (ring <= 10) {  // down to y = 0.8, above the jaw
+        EXPECT_EQ(turn, 255) << ring;
+      }
+      if (ring >= 32) {  // from y = -1.4 on, below the shoulders
+        EXPECT_EQ(turn, 0) << ring;
+      }
+      before = turn;
+    }
+    EXPECT_EQ(turn_at(strand, 12, slice), turn_at(hair, 34, slice));
+  }
+}
+
 TEST(TurnWithHead, KeepsTheRoleThatTheUserSet) {
   Figure figure(-4.0);
   const std::uint32_t collar =

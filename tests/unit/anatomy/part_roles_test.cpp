@@ -158,6 +158,15 @@ TEST_F(CartoonHead, HairInOnePiece_IsNotAttachedHoweverCloseItLies) {
   EXPECT_EQ(describe_parts(model_, surface_, face_points())[1].role, PartRole::rest);
 }
 
+TEST_F(CartoonHead, ABeardInOnePiece_GoesWithTheJaw_AndAScarfDoesNot) {
+  add(testing::make_box({-8, -9, 0.1F}, {8, 1, 0.4F}), "");    // from ear to ear, around the mouth
+  add(testing::make_box({-8, -12, 0.1F}, {8, -6, 0.4F}), "");  // begins below the mouth
+  add(testing::make_box({-9, -11, 0.1F}, {9, 10, 0.4F}), "");  // begins above the eyes: hair
+  add(testing::make_box({-8, -9, 0.1F}, {8, 1, 4.0F}), "");    // far from the skin: a microphone
+  surface_ = build_surface(model_);
+  EXPECT_EQ(roles(face_points()), (std::vector<std::string>{"skin", "attached", "rest", "rest", "rest"}));
+}
+
 /// Frame with its arms along the temples, and lenses and pads of their own, all one primitive.
 TEST_F(CartoonHead, Glasses_WithoutATellingName_AreAtRest_WithAllTheirParts) {
   add(testing::make_box({-6, 3, 0.4F}, {6, 5, 0.5F}), "Accessory_03");          // the frame
