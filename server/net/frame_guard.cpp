@@ -17,23 +17,32 @@ std::size_t bytes_of_length(unsigned length) {
 
 }  // namespace
 
-std::optional<std::string_view> FrameGuard::look(std::string_view bytes) {
-  while (!bytes.empty() && !over_) {
+std::optional<std::string_view> FrameGuard::look(std::string_view bytes, Clock::time_point now) {
+  if (over_ || bytes.empty()) return std::nullopt;
+  auto words = look_at_frames(bytes, now);
+  if (!words && begin_ && now > *begin_ + limits_.body_time(bytes_)) words = "sends a message too slowly";
+  over_ = words.has_value();
+  return words;
+}
+
+std::optional<std::string_view> FrameGuard::look_at_frames(std::string_view bytes, Clock::time_point now) {
+  while (!bytes.empty()) {
+    if (!begin_) begin_ = now, bytes_ = 0;
+    const auto passed =
+        payload_left_ > 0 ? static_cast<std::size_t>(std::min<std::uint64_t>(payload_left_, bytes.size())) : 1;
     if (payload_left_ > 0) {
-      const auto skipped = static_cast<std::size_t>(std::min<std::uint64_t>(payload_left_, bytes.size()));
-      payload_left_ -= skipped;
-      bytes.remove_prefix(skipped);
-      continue;
+      payload_left_ -= passed;
+    } else {
+      header_[header_size_++] = static_cast<unsigned char>(bytes.front());
     }
-    header_[header_size_++] = static_cast<unsigned char>(bytes.front());
-    bytes.remove_prefix(1);
-    if (header_size_ < fixed_bytes || header_size_ < header_bytes()) continue;
-    payload_left_ = payload_bytes();
-    header_size_ = 0;
-    if (const auto words = count_frame()) {
-      over_ = true;
-      return words;
+    bytes.remove_prefix(passed);
+    bytes_ += passed;
+    if (header_size_ >= fixed_bytes && header_size_ >= header_bytes()) {
+      payload_left_ = payload_bytes();
+      header_size_ = 0;
+      if (const auto words = count_frame(now)) return words;
     }
+    if (header_size_ == 0 && payload_left_ == 0 && ends_message_) begin_.reset();
   }
   return std::nullopt;
 }
@@ -51,18 +60,20 @@ std::uint64_t FrameGuard::payload_bytes() const {
   return value;
 }
 
-std::optional<std::string_view> FrameGuard::count_frame() {
+std::optional<std::string_view> FrameGuard::count_frame(Clock::time_point now) {
   const bool is_control = (header_[0] & control_bit) != 0;
   if (is_control) {
-    if ((header_[0] & opcode_bits) == opcode_of_close || controls_.take(1, Clock::now())) return std::nullopt;
+    ends_message_ = fragments_of_message_ == 0;
+    if ((header_[0] & opcode_bits) == opcode_of_close || controls_.take(1, now)) return std::nullopt;
     return "sends too many pings";
   }
-  if ((header_[0] & final_bit) != 0) {
+  ends_message_ = (header_[0] & final_bit) != 0;
+  if (ends_message_) {
     fragments_of_message_ = 0;
     return std::nullopt;
   }
-  if (++fragments_of_message_ > max_fragments_) return "sends a message in too many fragments";
-  if (!fragments_.take(1, Clock::now())) return "sends too many fragments of messages";
+  if (++fragments_of_message_ > limits_.max_fragments) return "sends a message in too many fragments";
+  if (!fragments_.take(1, now)) return "sends too many fragments of messages";
   return std::nullopt;
 }
 

@@ -14,30 +14,35 @@
 namespace semblante::net {
 
 /// Limits the frames of a WebSocket's client that end no message: control frames, which Beast answers by itself, and
-/// fragments, which Beast reads without end when they are empty. Whole messages are the peer's to limit. Reads only the
+/// fragments, which Beast reads without end when they are empty; and the time in which a message arrives, as every byte
+/// counts as activity for Beast. Whole messages are the peer's to limit. Reads only the
 /// frames' headers; what is wrong with them Beast refuses. Not synchronized.
 class FrameGuard {
  public:
   using Clock = TokenBucket::Clock;
 
   explicit FrameGuard(const ServerLimits& limits)
-      : max_fragments_(limits.max_fragments),
+      : limits_(limits),
         controls_(limits.controls_per_second, limits.controls_burst),
         fragments_(limits.fragments_per_second, limits.fragments_burst) {}
 
   /// Looks at the bytes in the order in which they arrive, in pieces of any size. The words for the client at the first
-  /// frame that is too many; after that nothing more is looked at.
-  [[nodiscard]] std::optional<std::string_view> look(std::string_view bytes);
+  /// frame that is too many or piece that is too late; after that nothing more is looked at.
+  [[nodiscard]] std::optional<std::string_view> look(std::string_view bytes, Clock::time_point now = Clock::now());
 
  private:
   [[nodiscard]] std::size_t header_bytes() const;
   [[nodiscard]] std::uint64_t payload_bytes() const;
-  [[nodiscard]] std::optional<std::string_view> count_frame();
+  [[nodiscard]] std::optional<std::string_view> look_at_frames(std::string_view bytes, Clock::time_point now);
+  [[nodiscard]] std::optional<std::string_view> count_frame(Clock::time_point now);
 
-  const std::uint32_t max_fragments_;
+  const ServerLimits& limits_;
   TokenBucket controls_, fragments_;
   std::uint64_t payload_left_ = 0;          ///< of the current frame
   std::uint32_t fragments_of_message_ = 0;  ///< received so far, without the last one
+  bool ends_message_ = false;               ///< the current frame does, or is a control frame between messages
+  std::optional<Clock::time_point> begin_;  ///< of what is not complete: a message with its fragments, or a frame
+  std::uint64_t bytes_ = 0;                 ///< received since then
   std::array<unsigned char, 14> header_{};  ///< of the current frame, as far as it has arrived
   std::uint8_t header_size_ = 0;
   bool over_ = false;

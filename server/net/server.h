@@ -41,10 +41,14 @@ struct ServerLimits {
   std::chrono::seconds body_grace{30};    ///< for a whole body, in addition to the time of the least rate
   std::uint32_t least_body_rate = 1024;   ///< bytes per second, of a body that arrives and of a file that is sent
 
-  /// What is left for a body that has begun then and of which so many bytes have passed.
+  /// The time that a body, or a message of a WebSocket, may take of which so many bytes have passed.
+  [[nodiscard]] std::chrono::seconds body_time(std::uint64_t bytes) const {
+    return body_grace + std::chrono::seconds(bytes / least_body_rate);
+  }
+  /// What is left of it for one that has begun then.
   [[nodiscard]] std::chrono::steady_clock::duration body_time_left(std::chrono::steady_clock::time_point begin,
                                                                    std::uint64_t bytes) const {
-    return begin + body_grace + std::chrono::seconds(bytes / least_body_rate) - std::chrono::steady_clock::now();
+    return begin + body_time(bytes) - std::chrono::steady_clock::now();
   }
   std::chrono::seconds write_timeout{30};  ///< between two pieces of an answer
   std::chrono::seconds drain_time{10};     ///< for pending answers and waiting messages at a shutdown

@@ -121,7 +121,7 @@ TEST(Limits, OfTheReadMe_AreThoseThatAreKept) {
       {"tickets that wait for their use; life of a ticket",
        count(access::Tickets::most) + "; " + seconds(access::Tickets::lifetime)},
       {"handshake of TLS", seconds(net.header_timeout)},
-      {"a whole body, and a file that is sent",
+      {"a whole body, a file that is sent, a message of a WebSocket",
        seconds(net.body_grace) + ", and 1 s for each " + count(net.least_body_rate) + " bytes of it"},
       {"parts of a model that are listed and can be given a role",
        "the " + count(store::max_part_records) + " with the most vertices; 32 in a list of models"},

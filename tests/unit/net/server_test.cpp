@@ -369,6 +369,17 @@ class LeastRate : public ::testing::Test {
   std::thread thread_;
 };
 
+TEST_F(LeastRate, SlowMessage_OfAWebSocket_IsCutOff) {
+  serve(1'000'000);
+  const Client client(port_);
+  client.upgrade();
+  client.send(std::string("\x81\xFE\xFF\xFFmask", 8));
+  // As for a body.
+  ASSERT_TRUE(testing::eventually([&] { return is_alone() || !client.try_send("x"); }, 100ms));
+  EXPECT_TRUE(testing::eventually([&] { return is_alone(); }));
+  EXPECT_TRUE(client.read(100).ends_with("\x03\xF0sends a message too slowly"));
+}
+
 TEST_F(LeastRate, SlowBody_IsCutOff) {
   serve(1'000'000);
   const Client client(port_);

@@ -119,5 +119,37 @@ TEST(FrameGuard, CountsFrames_HoweverTheBytesArrive) {
   }
 }
 
+TEST(FrameGuard, EndsAMessage_ThatArrivesTooSlowly) {
+  using std::chrono::seconds;
+  const ServerLimits limits;
+  const auto grace = limits.body_grace;
+  const std::string big = std::string("\x81\xFE\xEA\x60", 4) + std::string(4 + 60'000, 'x');
+  const auto half = std::string_view(big).substr(0, big.size() / 2), rest = std::string_view(big).substr(half.size());
+  const auto slow = [&](const std::vector<std::pair<seconds, std::string>>& pieces) {
+    FrameGuard guard(limits);
+    std::optional<std::string_view> words;
+    const auto begin = FrameGuard::Clock::now();
+    for (const auto& [after, bytes] : pieces) {
+      EXPECT_EQ(words, std::nullopt) << "before the last piece";
+      words = guard.look(bytes, begin + after);
+    }
+    return words == "sends a message too slowly";
+  };
+  const auto text = Client::frame('\x81', "hello"), ping = Client::frame('\x89', "p");
+  const auto part = Client::frame('\x01', "a"), more = Client::frame('\0', "b");
+  const auto late = grace + seconds(1);
+  EXPECT_TRUE(slow({{seconds(0), text.substr(0, 1)}, {late, text.substr(1, 1)}})) << "a header";
+  EXPECT_TRUE(slow({{seconds(0), text.substr(0, 8)}, {grace, text.substr(8, 1)}, {late, text.substr(9, 1)}}));
+  EXPECT_TRUE(slow({{seconds(0), ping.substr(0, 1)}, {late, ping.substr(1, 1)}})) << "a ping";
+  EXPECT_TRUE(slow({{seconds(0), part}, {grace, ping}, {late, more}})) << "pings are no progress of a message";
+  EXPECT_TRUE(slow({{seconds(0), part}, {late, ping}}));
+  EXPECT_FALSE(slow({{seconds(0), text}, {late, text}, {10 * late, ping}, {20 * late, ping + part}}));
+  EXPECT_FALSE(slow({{seconds(0), text + part}, {grace, more + Client::frame('\x80', "")}, {3 * late, text}}));
+  // At the least rate, as a body.
+  const seconds of_half(half.size() / limits.least_body_rate);
+  EXPECT_FALSE(slow({{seconds(0), std::string(half)}, {grace + of_half, std::string(rest.substr(0, 1))}}));
+  EXPECT_TRUE(slow({{seconds(0), std::string(half)}, {grace + of_half + seconds(2), std::string(rest.substr(0, 1))}}));
+}
+
 }  // namespace
 }  // namespace semblante::net
