@@ -24,9 +24,8 @@ export class Link extends Emitter<{ state: LinkState }> {
 
   constructor(source: Source, sound: boolean) {
     super();
-    const base = source.base === '' ? location.origin : source.base;
     const token = source.token === null ? {} : { token: source.token };
-    this.client = new StreamClient(streamUrl(base, source.stream), { sound, ...token });
+    this.client = new StreamClient(streamUrl(source.base, source.stream), { sound, ...token });
     const hear = (): void => {
       this.heard = performance.now();
       clearTimeout(this.answer);

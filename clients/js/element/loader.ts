@@ -5,7 +5,7 @@ import { FaceTrouble, troubleWords, type Trouble } from './words.ts';
 
 /** Where a face comes from. */
 export interface Source {
-  /** the server's address; empty: the server of this page */
+  /** the server's address, without a slash at its end */
   base: string;
   stream: string;
   /** null: the model that the stream shows */
@@ -24,10 +24,41 @@ export function trouble(code: Trouble, name = ''): FaceTrouble {
   return new FaceTrouble(code, troubleWords[code](name));
 }
 
+/** Characters of a text from a page that are shown in words. */
+const shownLength = 80;
+
+function shown(text: string): string {
+  return text.length > shownLength ? `${text.slice(0, shownLength)}…` : text;
+}
+
+/**
+ * The server that a page names: an address of http or https, or a path on the page's server; without a name the page's
+ * server. Nothing else is requested. Throws FaceTrouble.
+ */
+export function serverOf(src: string, page: string): string {
+  let url: URL;
+  try {
+    url = new URL(src === '' ? '/' : src, page);
+  } catch {
+    throw trouble('address', shown(src === '' ? page : src));
+  }
+  const isServer = (url.protocol === 'https:' || url.protocol === 'http:') && url.username + url.password + url.search + url.hash === '';
+  if (!isServer) throw trouble('address', shown(src));
+  return url.href.replace(/\/+$/, '');
+}
+
+/** Refuses what no id can be: half of a character, which no address can have. Throws FaceTrouble. */
+export function expectIds(stream: string, model: string | null): void {
+  const isText = (id: string): boolean => !/[\uD800-\uDFFF]/u.test(id);
+  if (!isText(stream)) throw trouble('no-stream', shown(stream));
+  if (model !== null && !isText(model)) throw trouble('model-unready');
+}
+
 /** What a status of the server means here. */
 function troubleOf(status: number, absent: Trouble, name: string): FaceTrouble {
   if (status === 401 || status === 403) return trouble('private');
-  return trouble(status === 404 ? absent : 'server', name);
+  // 414, 431: an id that is longer than any.
+  return trouble(status === 404 || status === 414 || status === 431 ? absent : 'server', name);
 }
 
 /** The id of the model that a stream shows. Throws FaceTrouble. */
@@ -36,10 +67,10 @@ export async function modelOf(source: Source, signal: AbortSignal): Promise<stri
   const response = await requestOf(source)(address, { signal }).catch((error: unknown) => {
     throw signal.aborted ? error : trouble('unreachable');
   });
-  if (!response.ok) throw troubleOf(response.status, 'no-stream', source.stream);
+  if (!response.ok) throw troubleOf(response.status, 'no-stream', shown(source.stream));
   const { model } = (await response.json().catch(() => ({}))) as { model?: unknown };
   if (source.model !== null) return source.model;
-  if (typeof model !== 'string' || model === '') throw trouble('no-model', source.stream);
+  if (typeof model !== 'string' || model === '') throw trouble('no-model', shown(source.stream));
   return model;
 }
 

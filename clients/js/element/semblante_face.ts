@@ -1,7 +1,7 @@
 import type { Fit } from '../view/framing.ts';
 import type { QualityName } from './detail.ts';
 import { FaceShow, type ShowState } from './face_show.ts';
-import type { Source } from './loader.ts';
+import { expectIds, serverOf, type Source } from './loader.ts';
 import { styleText } from './style.ts';
 import { FaceTrouble, type Trouble } from './words.ts';
 
@@ -80,6 +80,7 @@ export class SemblanteFace extends Base {
     root.adoptedStyleSheets = [styles()];
     this.picture.alt = '';
     this.picture.className = 'gone';
+    this.picture.addEventListener('error', () => this.picture.classList.add('gone'));
     this.words.setAttribute('role', 'status');
     this.wheel.hidden = true;
     this.playButton.type = 'button';
@@ -293,12 +294,6 @@ export class SemblanteFace extends Base {
 
   private start(): void {
     if (this.stream === '') return;
-    const source: Source = {
-      base: this.src.replace(/\/+$/, ''),
-      stream: this.stream,
-      model: this.model,
-      token: this.secret,
-    };
     const canvas = this.make('canvas');
     this.canvas = canvas;
     canvas.setAttribute('role', 'img');
@@ -306,6 +301,8 @@ export class SemblanteFace extends Base {
     this.listen(canvas);
     this.shadowRoot!.insertBefore(canvas, this.picture);
     try {
+      expectIds(this.stream, this.model);
+      const source: Source = { base: serverOf(this.src, document.baseURI), stream: this.stream, model: this.model, token: this.secret };
       const show = new FaceShow(canvas, {
         source,
         fit: this.fit,

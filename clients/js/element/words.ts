@@ -1,5 +1,6 @@
 /** What can keep a face from being shown or moving, and how the page says it. */
 export type Trouble =
+  | 'address'
   | 'no-stream'
   | 'no-model'
   | 'model-unready'
@@ -22,6 +23,7 @@ export class FaceTrouble extends Error {
 }
 
 export const troubleWords: Record<Trouble, (name: string) => string> = {
+  address: (name) => `“${name}” is not the address of a server. It begins with https:// or http://, or is a path on the server of this page.`,
   'no-stream': (name) => `There is no stream “${name}” on this server.`,
   'no-model': (name) => `The stream “${name}” has no face yet. It is shown as soon as a model is chosen for it.`,
   'model-unready': () => 'There is no such face, or it is still being prepared.',
@@ -34,5 +36,7 @@ export const troubleWords: Record<Trouble, (name: string) => string> = {
   lost: () => 'The connection was lost. Trying again.',
 };
 
+const lasting: ReadonlySet<Trouble> = new Set<Trouble>(['address', 'no-webgl', 'private', 'damaged']);
+
 /** Whether it can pass by itself, so that waiting helps. */
-export const isPassing = (code: Trouble): boolean => code !== 'no-webgl' && code !== 'private' && code !== 'damaged';
+export const isPassing = (code: Trouble): boolean => !lasting.has(code);

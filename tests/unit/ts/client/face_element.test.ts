@@ -2,6 +2,8 @@ import { expect, test } from 'vitest';
 import type { RigDocument, Vec3 } from '../../../../protocol/ts/index.ts';
 import { budgetOf, cheaperSteps, firstVertices, type Device } from '../../../../clients/js/element/detail.ts';
 import { fewerPixels, Pace } from '../../../../clients/js/view/pace.ts';
+import { expectIds, serverOf } from '../../../../clients/js/element/loader.ts';
+import { FaceTrouble, isPassing } from '../../../../clients/js/element/words.ts';
 import { OrbitCamera } from '../../../../clients/js/view/camera.ts';
 import { frameOf } from '../../../../clients/js/view/framing.ts';
 
@@ -119,3 +121,41 @@ test('OrbitCamera_Orbit_TurnsAboutTheSubject_AndStopsBeforeThePoles', () => {
   camera.reset();
   expect([camera.yaw, camera.pitch, camera.distance]).toEqual([0, 0, 1]);
 });
+
+test('serverOf_AnAddressOrAPath_IsTheServer', () => {
+  const page = 'https://site.example/rooms/1.html';
+  expect(serverOf('', page)).toBe('https://site.example');
+  expect(serverOf('http://127.0.0.1:8080', page)).toBe('http://127.0.0.1:8080');
+  expect(serverOf('HTTPS://Faces.example/semblante//', page)).toBe('https://faces.example/semblante');
+  expect(serverOf('/semblante/', page)).toBe('https://site.example/semblante');
+  expect(serverOf('//faces.example', page)).toBe('https://faces.example');
+  expect(serverOf('http://[::1]:8080', page)).toBe('http://[::1]:8080');
+});
+
+test('serverOf_WhatIsNoServer_IsRefusedInWords_AndNotRequested', () => {
+  const refused = ['javascript:alert(1)', ' java\nscript:alert(1)', 'data:text/html,<script>alert(1)</script>', 'blob:https://site.example/1', 'file:///etc/passwd',
+    'ws://faces.example', 'https://', 'https://user:secret@faces.example', 'https://faces.example/?a=1', 'https://faces.example/#a'];
+  for (const src of refused) {
+    const trouble = catchOf(() => serverOf(src, 'https://site.example/'));
+    expect(trouble, src).toBeInstanceOf(FaceTrouble);
+    expect((trouble as FaceTrouble).message).toContain('is not the address of a server');
+    expect(isPassing((trouble as FaceTrouble).code)).toBe(false);
+  }
+  expect((catchOf(() => serverOf('', 'about:blank')) as FaceTrouble).message).toContain('about:blank');
+  expect((catchOf(() => serverOf(`javascript:${'x'.repeat(1e6)}`, 'about:blank')) as FaceTrouble).message.length).toBeLessThan(300);
+});
+
+test('expectIds_HalfACharacter_IsNoId', () => {
+  for (const id of ['demo', '../..', 'javascript:alert(1)', '😀']) expectIds(id, id);
+  expect((catchOf(() => expectIds('a\uD800', null)) as FaceTrouble).code).toBe('no-stream');
+  expect((catchOf(() => expectIds('demo', '\uDC00')) as FaceTrouble).code).toBe('model-unready');
+});
+
+function catchOf(call: () => unknown): unknown {
+  try {
+    call();
+  } catch (error) {
+    return error;
+  }
+  return null;
+}
