@@ -53,7 +53,7 @@ void report_missing(store::ArtefactStore& store, const Reconciled& blobs, const 
       for (auto& user : store.users_of(hash)) users.insert(std::move(user));
     log::warning(count_of(blobs.missing.size(), "blob") + " that the database refers to " +
                  (blobs.missing.size() == 1 ? "is" : "are") + " neither in the data folder nor in its trash; of " +
-                 list_of(users));
+                 list_of(users) + ": " + list_of(blobs.missing));
   }
   if (!recordings.missing.empty())
     log::warning(count_of(recordings.missing.size(), "recording") +
@@ -100,12 +100,13 @@ void count_start(const std::filesystem::path& data, store::DatabaseFacts& store)
 }  // namespace
 
 void keep_log_of_lost_database(const std::filesystem::path& data, store::Trash& trash) {
-  const auto size_of = [&](std::string_view name) {
+  // What is no file counts as having content: the store refuses it, with its name.
+  const auto is_empty = [&](std::string_view name) {
     std::error_code error;
-    const auto bytes = std::filesystem::file_size(data / name, error);
-    return error ? 0 : bytes;
+    if (!std::filesystem::exists(std::filesystem::symlink_status(data / name, error))) return true;
+    return std::filesystem::is_regular_file(data / name, error) && std::filesystem::is_empty(data / name, error);
   };
-  if (size_of(store::database_file_name) > 0 || size_of(store::database_log_name) == 0) return;
+  if (!is_empty(store::database_file_name) || is_empty(store::database_log_name)) return;
   if (const auto kept = trash.put(DataFileKind::database_log, store::database_log_name); !kept) {
     log::warning("the write-ahead log of a missing database cannot be kept: " + kept.error().message);
     return;

@@ -83,16 +83,14 @@ void check_writable(store::DatabaseFacts& store, const std::filesystem::path& da
   if (store::free_files(data) < least_files) throw store::DiskFull("no more files can be made in " + data.string());
 }
 
-/// On a full disk the folders are made later, when there is space.
+/// On a full disk the folders are made later, when there is space; where a file has their name, when it is gone.
 void make_folders(store::PendingWrites& pending, store::BlobStore& blobs, store::DiskReserve& reserve) {
   try {
     reserve.fill();
   } catch (const store::StoreError& fault) {
     pending.note(fault);
   }
-  pending.write(&blobs, "folders", "the folders for uploads and blobs", [&blobs] {
-    if (const auto made = blobs.make_folders(); !made) throw store::StoreError(made.error().message);
-  });
+  pending.write(&blobs, "folders", "the folders for uploads and blobs", [&blobs] { blobs.make_folders(); });
 }
 
 /// Before the first thread: it forks.
@@ -199,7 +197,6 @@ void run_serve(const ServeOptions& options) {
   const auto lock = lock_data(options.data);
 
   auto blobs = store::BlobStore::open(options.data);
-  if (!blobs) fail("serve: --data", blobs.error());
   const auto isolation = isolation_of_workers(options.data);
   store::DiskReserve reserve(options.data / "reserve");
   const auto trash = std::make_shared<store::Trash>(options.data, std::chrono::seconds(options.trash_grace));
@@ -212,7 +209,7 @@ void run_serve(const ServeOptions& options) {
       log::Periodic::First::at_once);
 
   store::PendingWrites pending({[&] { check_writable(**store, options.data); }, &reserve});
-  make_folders(pending, *blobs, reserve);
+  make_folders(pending, blobs, reserve);
 
   jobs::JobConfig job_config;
   job_config.worker_command = {jobs::own_executable(), "worker"};
@@ -220,7 +217,7 @@ void run_serve(const ServeOptions& options) {
   job_config.limits.memory_bytes = options.worker_memory;
   job_config.limits.cpu_seconds = options.worker_cpu_seconds;
   job_config.concurrency = options.workers;
-  jobs::JobQueue queue({**store, **store, **store}, *blobs, pending, job_config);
+  jobs::JobQueue queue({**store, **store, **store}, blobs, pending, job_config);
   recordings::RecorderLimits recorder_limits;
   recorder_limits.max_recordings = options.max_recordings;
   recorder_limits.max_bytes = options.max_recording_bytes;
@@ -228,11 +225,10 @@ void run_serve(const ServeOptions& options) {
   recorder_limits.disk_reserve = options.disk_reserve;
   auto recorder = recordings::Recorder::open(**store, **store, pending, options.data / store::recordings_folder_name,
                                              recorder_limits);
-  if (!recorder) fail("serve: --data", recorder.error());
   streams::StreamLimits stream_limits;
   stream_limits.max_connections = options.max_stream_connections;
   streams::InProcessHub hub(stream_limits, net::make_group_sender());
-  hub.set_listener(*recorder);
+  hub.set_listener(recorder);
   open_streams(**store, hub, options);
 
   api::ApiConfig api_config;
@@ -244,7 +240,7 @@ void run_serve(const ServeOptions& options) {
   const auto program = options.voice_program.empty() ? voice::installed_voice() : options.voice_program;
   if (!program.empty() && program != "none") api_config.voice.command = {program};
   api_config.voice.wall_seconds = api::longest_speech_seconds;
-  api_config.voice.temporary = blobs->temporary();
+  api_config.voice.temporary = blobs.temporary();
   api_config.sound_reader = api_config.voice;
   api_config.sound_reader.command = {voice::installed_sound_reader()};
   api_config.recognizer = voice::recognizer_at(options.recognizer_program);
@@ -277,13 +273,13 @@ void run_serve(const ServeOptions& options) {
   };
   net::Server* running = nullptr;
   const auto net_metrics = [&running](metrics::TextWriter& writer) { write_net_metrics(writer, running->counts()); };
-  api::Api api(api::Context{**store, *blobs, pending, queue, hub, api_config, net_metrics, *recorder, trash});
+  api::Api api(api::Context{**store, blobs, pending, queue, hub, api_config, net_metrics, recorder, trash});
 
   net::ServerConfig net_config;
   net_config.listeners = listening.listeners;
   net_config.proxies = listening.proxies;
   net_config.worker_threads = options.threads;
-  net_config.upload_directory = blobs->temporary();
+  net_config.upload_directory = blobs.temporary();
   const auto open_files = open_files_to_serve(options.max_connections);
   net_config.limits.max_connections = open_files.connections;
   net_config.limits.max_files = open_files.bodies;
@@ -311,7 +307,7 @@ void run_serve(const ServeOptions& options) {
   const log::Periodic token_watch("looking for changed tokens", look_for_tokens,
                                   [&](const auto&) { tokens->refresh(**store); });
 
-  SampleInstaller sample(**store, **store, *blobs, pending, queue, options.sample);
+  SampleInstaller sample(**store, **store, blobs, pending, queue, options.sample);
   queue.on_finished([&sample](const store::JobRecord& job) { sample.job_finished(job); });
   queue.start();
   sample.begin();
@@ -329,10 +325,10 @@ void run_serve(const ServeOptions& options) {
     notify_service_manager("STOPPING=1");
     api.begin_stopping();
     // What is recorded ends with its stream, after the last frame that was accepted.
-    (*recorder)->begin_closing();
+    recorder->begin_closing();
     hub.shut_down();
   });
-  (*recorder)->close();
+  recorder->close();
   queue.stop();
   log::info("stopped");
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <fcntl.h>
 #include <string>
 #include <unistd.h>
@@ -10,20 +9,25 @@
 
 #include <sys/stat.h>
 
+#include "server/store/data_files.h"
+#include "server/store/descriptor.h"
+
 namespace semblante::recordings {
 namespace {
 
 class FileBytes : public ByteSource {
  public:
-  FileBytes(int descriptor, std::uint64_t size) : descriptor_(descriptor), size_(size) {}
-  ~FileBytes() override { ::close(descriptor_); }
-  FileBytes(const FileBytes&) = delete;
-  FileBytes& operator=(const FileBytes&) = delete;
+  FileBytes(const std::filesystem::path& path, std::uint64_t size) : file_(path, O_RDONLY) {
+    struct stat facts {};
+    if (file_.ok() && ::fstat(file_.get(), &facts) == 0)
+      size_ = std::min(size, static_cast<std::uint64_t>(facts.st_size));
+  }
+  [[nodiscard]] bool ok() const { return file_.ok(); }
   [[nodiscard]] std::uint64_t size() const override { return size_; }
   [[nodiscard]] bool read(std::uint64_t offset, std::span<std::uint8_t> to) const override {
     if (offset > size_ || to.size() > size_ - offset) return false;
     while (!to.empty()) {
-      const auto got = ::pread(descriptor_, to.data(), to.size(), static_cast<off_t>(offset));
+      const auto got = ::pread(file_.get(), to.data(), to.size(), static_cast<off_t>(offset));
       if (got < 0 && errno == EINTR) continue;
       if (got <= 0) return false;
       offset += static_cast<std::uint64_t>(got);
@@ -33,8 +37,8 @@ class FileBytes : public ByteSource {
   }
 
  private:
-  const int descriptor_;
-  const std::uint64_t size_;
+  const store::Descriptor file_;
+  std::uint64_t size_ = 0;
 };
 
 class MemoryBytes : public ByteSource {
@@ -54,15 +58,11 @@ class MemoryBytes : public ByteSource {
 }  // namespace
 
 Result<std::shared_ptr<const ByteSource>> open_bytes(const std::filesystem::path& path, std::uint64_t size) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  struct stat facts {};
-  if (descriptor < 0 || ::fstat(descriptor, &facts) != 0) {
-    Error error{errno == ENOENT ? ErrorCode::missing : ErrorCode::io, path.string(), std::strerror(errno)};
-    if (descriptor >= 0) ::close(descriptor);
-    return error;
-  }
-  return std::shared_ptr<const ByteSource>(
-      std::make_shared<FileBytes>(descriptor, std::min(size, static_cast<std::uint64_t>(facts.st_size))));
+  const auto bytes = std::make_shared<FileBytes>(path, size);
+  if (bytes->ok()) return std::shared_ptr<const ByteSource>(bytes);
+  const int error_number = errno;
+  return Error{store::is_real_file(path) ? ErrorCode::io : ErrorCode::missing, path.string(),
+               store::reason_of(path, error_number)};
 }
 
 std::shared_ptr<const ByteSource> bytes_in_memory(std::vector<std::uint8_t> bytes) {

@@ -28,21 +28,20 @@ Recorder::Recorder(store::RecordingStore& store, store::DatabaseFacts& facts, st
                    std::filesystem::path folder, RecorderLimits limits)
     : store_(store), facts_(facts), pending_(pending), folder_(std::move(folder)), limits_(limits) {}
 
-Result<std::shared_ptr<Recorder>> Recorder::open(store::RecordingStore& store, store::DatabaseFacts& facts,
-                                                 store::PendingWrites& pending, std::filesystem::path folder,
-                                                 RecorderLimits limits) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) return Error{ErrorCode::io, folder.string(), error.message()};
+std::shared_ptr<Recorder> Recorder::open(store::RecordingStore& store, store::DatabaseFacts& facts,
+                                         store::PendingWrites& pending, std::filesystem::path folder,
+                                         RecorderLimits limits) {
   std::shared_ptr<Recorder> recorder(new Recorder(store, facts, pending, std::move(folder), limits));
-  if (auto status = recorder->repair(); !status) return status.error();
+  pending.write(recorder.get(), "the folder of recordings", "the folder for recordings",
+                [&path = recorder->folder_] { store::make_folder(path); });
+  recorder->repair();
   recorder->thread_ = std::thread([&self = *recorder] { log::keep_running("the recorder", [&self] { self.run(); }); });
   return recorder;
 }
 
 Recorder::~Recorder() { close(); }
 
-Status Recorder::repair() {
+void Recorder::repair() {
   std::string after;
   while (true) {
     const auto records = store_.recordings("", after, page);
@@ -57,7 +56,6 @@ Status Recorder::repair() {
       total_bytes_ += record.bytes;
     }
   }
-  return Unit{};
 }
 
 void Recorder::repair(const std::string& id) {
@@ -68,6 +66,7 @@ void Recorder::repair(const std::string& id) {
     if (found == unrecorded_.end()) return;  // removed meanwhile
     record = found->second;
   }
+  store::make_folder(folder_);  // without it the file is not missing, but behind what is in the folder's place
   const auto progress = repair_recording(path_of(id));
   if (progress) {
     total_bytes_ += progress->bytes - record.bytes;

@@ -72,10 +72,11 @@ struct RecorderCounts {
 class Recorder : public streams::BatchListener {
  public:
   /// Files are `folder`/<id>.srec. Recordings that an earlier process left running are truncated after their last
-  /// complete chunk and finished; on a full disk, later. Errors: io. `store`, `facts` and `pending` outlive it.
-  static Result<std::shared_ptr<Recorder>> open(store::RecordingStore& store, store::DatabaseFacts& facts,
-                                                store::PendingWrites& pending, std::filesystem::path folder,
-                                                RecorderLimits limits = {});
+  /// complete chunk and finished; on a full disk, or without their folder, later. `store`, `facts` and `pending`
+  /// outlive it.
+  static std::shared_ptr<Recorder> open(store::RecordingStore& store, store::DatabaseFacts& facts,
+                                        store::PendingWrites& pending, std::filesystem::path folder,
+                                        RecorderLimits limits = {});
   ~Recorder() override;
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
@@ -130,7 +131,7 @@ class Recorder : public streams::BatchListener {
 
   Recorder(store::RecordingStore& store, store::DatabaseFacts& facts, store::PendingWrites& pending,
            std::filesystem::path folder, RecorderLimits limits);
-  Status repair();
+  void repair();
   void repair(const std::string& id);
   void run();
   /// Writes the queued batches; returns the reason why the recording must end, or "".

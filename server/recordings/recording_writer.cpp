@@ -155,14 +155,12 @@ Result<RecordingProgress> repair_recording(const std::filesystem::path& path) {
     return Error{ErrorCode::mismatch, "byte " + std::to_string(reader->whole_bytes()),
                  reader->torn_reason() + ", and more follows"};
   if (reader->torn_bytes() > 0) {
-    const int descriptor = ::open(path.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW);
-    const bool cut = descriptor >= 0 && ::ftruncate(descriptor, static_cast<off_t>(reader->whole_bytes())) == 0 &&
-                     ::fsync(descriptor) == 0;
-    const int error_number = errno;
-    if (descriptor >= 0) ::close(descriptor);
+    const store::Descriptor file(path, O_RDWR);
+    const bool cut = file.ok() && ::ftruncate(file.get(), static_cast<off_t>(reader->whole_bytes())) == 0 &&
+                     ::fsync(file.get()) == 0;
     if (!cut) {
-      store::throw_if_disk_full(path, error_number);
-      return Error{ErrorCode::io, "", path.string() + ": " + std::strerror(error_number)};
+      store::throw_if_disk_full(path, errno);
+      return store::io_error(path);
     }
   }
   RecordingProgress progress;

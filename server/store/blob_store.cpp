@@ -40,28 +40,24 @@ BlobStore::BlobStore(fs::path folder)
       references_(std::make_shared<std::shared_mutex>()),
       verified_(std::make_shared<VerifiedBlobs>()) {}
 
-Result<BlobStore> BlobStore::open(const fs::path& folder) {
+BlobStore BlobStore::open(const fs::path& folder) {
   BlobStore blobs(folder);
-  // The folder itself is kept: a full disk has no room for a new one.
+  // The folder itself is kept: a full disk has no room for a new one. Behind a link are somebody else's files.
   std::error_code error;
-  for (const auto& left : fs::directory_iterator(blobs.temporary(), error)) {
+  for (fs::directory_iterator left(blobs.temporary(), error), end;
+       is_real_folder(blobs.temporary()) && !error && left != end; left.increment(error)) {
     std::error_code ignored;
-    fs::remove_all(left.path(), ignored);
+    fs::remove_all(left->path(), ignored);
   }
   try {
-    if (auto made = blobs.make_folders(); !made) return made.error();
-  } catch (const DiskFull&) {  // reported by the caller, who calls make_folders() again
+    blobs.make_folders();
+  } catch (const StoreError&) {  // reported by the caller, who calls make_folders() again
   }
   return blobs;
 }
 
-Status BlobStore::make_folders() const {
-  for (const auto& folder : {temporary(), folder_ / "blobs"}) {
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (error) return write_error(folder, error.value());
-  }
-  return Unit{};
+void BlobStore::make_folders() const {
+  for (const auto& folder : {temporary(), folder_ / "blobs"}) make_folder(folder);
 }
 
 fs::path BlobStore::path_of(std::string_view sha256) const {
@@ -122,7 +118,7 @@ fs::path BlobStore::whole(std::string_view sha256) const {
   const auto path = find(sha256);
   if (!path) throw DamagedBlob("the stored bytes with the SHA-256 " + name + " are missing");
   if (verified_->contains(name, file_stamp(*path))) return *path;
-  const Descriptor file(*path, O_RDONLY | O_NOFOLLOW);
+  const Descriptor file(*path, O_RDONLY);
   const auto before = file.ok() ? file_stamp(file) : std::nullopt;
   std::uint64_t bytes = 0;
   const auto hash = before ? hash_of(file, bytes) : std::nullopt;

@@ -35,11 +35,11 @@ class VerifiedBlobs;
 /// the place of a blob is not a blob. Any thread.
 class BlobStore {
  public:
-  /// Makes missing folders and removes the unfinished files of an earlier process in `temporary()`. On a full disk the
-  /// folders may still be missing: call make_folders() later.
-  static Result<BlobStore> open(const std::filesystem::path& folder);
-  /// Makes missing folders. Errors: io. Throws DiskFull.
-  Status make_folders() const;
+  /// Makes missing folders and removes the unfinished files of an earlier process in `temporary()`. On a full disk, or
+  /// where something else has their names, the folders may still be missing: call make_folders() later.
+  static BlobStore open(const std::filesystem::path& folder);
+  /// Makes missing folders. Throws StoreError.
+  void make_folders() const;
 
   /// The folder for files that adopt() will rename into the store; on the same file system.
   [[nodiscard]] std::filesystem::path temporary() const { return folder_ / "tmp"; }

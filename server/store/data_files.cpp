@@ -4,6 +4,7 @@
 #include <system_error>
 
 #include "protocol/hash/sha256.h"
+#include "server/store/store_error.h"
 
 namespace semblante::store {
 namespace {
@@ -93,6 +94,12 @@ Result<std::vector<DataFile>> list_data_files(const fs::path& root, DataFileKind
     add_if_file(root / database_log_name, std::string(database_log_name), files);
   if (!status) return status.error();
   return files;
+}
+
+void make_folder(const fs::path& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error) throw_store_error(path, error.value());
 }
 
 bool is_real_file(const fs::path& path) {

@@ -40,6 +40,9 @@ struct DataFile {
 /// symbolic links, which are never followed. Empty when the folder is missing. Errors: io.
 Result<std::vector<DataFile>> list_data_files(const std::filesystem::path& root, DataFileKind kind);
 
+/// Makes a folder of the data folder unless it exists. Throws StoreError.
+void make_folder(const std::filesystem::path& path);
+
 /// True for a file or a folder itself, false for a symbolic link to one.
 bool is_real_file(const std::filesystem::path& path);
 bool is_real_folder(const std::filesystem::path& path);

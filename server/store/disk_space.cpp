@@ -6,7 +6,8 @@
 
 #include <sys/statvfs.h>
 
-#include "server/store/store_error.h"
+#include "server/store/data_files.h"
+#include "server/store/descriptor.h"
 
 namespace semblante::store {
 
@@ -26,8 +27,7 @@ DiskReserve::DiskReserve(std::filesystem::path file, std::uint64_t bytes) : file
 
 bool DiskReserve::is_full() const {
   std::error_code error;
-  const auto size = std::filesystem::file_size(file_, error);
-  return !error && size == bytes_;
+  return is_real_file(file_) && std::filesystem::file_size(file_, error) == bytes_ && !error;
 }
 
 bool DiskReserve::release() {
@@ -38,10 +38,11 @@ bool DiskReserve::release() {
 void DiskReserve::fill() {
   const std::lock_guard lock(mutex_);
   if (is_full()) return;
-  const int descriptor = ::open(file_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
-  int fault = descriptor < 0 ? errno : ::posix_fallocate(descriptor, 0, static_cast<off_t>(bytes_));
-  if (descriptor >= 0 && fault != 0 && ::ftruncate(descriptor, 0) != 0) fault = errno;
-  if (descriptor >= 0) ::close(descriptor);
+  // Nobody's content: whatever else has the name goes. A folder stays, and is reported.
+  if (!is_real_file(file_)) ::unlink(file_.c_str());
+  const Descriptor file(file_, O_WRONLY | O_CREAT | O_TRUNC);
+  int fault = file.ok() ? ::posix_fallocate(file.get(), 0, static_cast<off_t>(bytes_)) : errno;
+  if (file.ok() && fault != 0 && ::ftruncate(file.get(), 0) != 0) fault = errno;
   if (fault != 0) throw_store_error(file_, fault);
 }
 

@@ -15,7 +15,7 @@ constexpr const char* file_name = "last-database";
 }  // namespace
 
 std::optional<DatabaseIdentity> read_last_database(const std::filesystem::path& data) {
-  const Descriptor file(data / file_name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK);
+  const Descriptor file(data / file_name, O_RDONLY);
   std::array<char, 256> bytes{};
   const auto got = file.ok() ? ::read(file.get(), bytes.data(), bytes.size()) : -1;
   if (got <= 0) return std::nullopt;

@@ -1,5 +1,9 @@
 #include "server/store/sqlite.h"
 
+#include <cerrno>
+#include <filesystem>
+#include <system_error>
+
 #include "server/store/store_error.h"
 
 namespace semblante::store {
@@ -45,9 +49,21 @@ std::string immutable_uri(const std::string& file) {
   return uri + "?immutable=1";
 }
 
+/// SQLite opens what is there, and waits for a FIFO or reads a device. Throws StoreError.
+void expect_files(const std::string& file) {
+  for (const auto* end : {"", "-wal", "-shm"}) {
+    const std::filesystem::path path = file + end;
+    std::error_code error;
+    if (std::filesystem::exists(std::filesystem::symlink_status(path, error)) &&
+        !std::filesystem::is_regular_file(path, error))
+      throw_store_error(path, EISDIR);
+  }
+}
+
 }  // namespace
 
 Database::Database(const std::string& file, Access access) {
+  expect_files(file);
   // SQLite needs no mutex, because the store has one.
   const int mode = access == Access::read_write  ? SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE
                    : access == Access::read_only ? SQLITE_OPEN_READONLY

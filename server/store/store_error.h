@@ -31,6 +31,9 @@ class NotEnoughRoom : public DiskFull {
   using DiskFull::DiskFull;
 };
 
+/// Why a file could not be opened, read or written: the words of this errno, or what is in the place of the
+/// file or folder (a FIFO, a device, a link), if that is the reason.
+std::string reason_of(const std::filesystem::path& path, int error_number);
 /// Whether this errno means that the disk or a quota is full.
 bool is_disk_full(int error_number);
 /// Throws DiskFull if this errno means it.

@@ -24,9 +24,9 @@ void write_all(const store::Descriptor& file, const fs::path& path, std::span<co
 }  // namespace
 
 Result<store::Blob> copy_bytes(const fs::path& from, const fs::path& to) {
-  const store::Descriptor source(from, O_RDONLY | O_NOFOLLOW);
+  const store::Descriptor source(from, O_RDONLY);
   if (!source.ok() && errno == ENOENT) return Error{ErrorCode::missing, "", "it is missing"};
-  if (!source.ok()) return Error{ErrorCode::io, "", std::string("it cannot be read: ") + std::strerror(errno)};
+  if (!source.ok()) return Error{ErrorCode::io, "", "it cannot be read: " + store::reason_of(from, errno)};
   const store::Descriptor copy(to, O_WRONLY | O_CREAT | O_TRUNC);
   if (!copy.ok()) store::throw_store_error(to, errno);
   Sha256Stream hash;

@@ -1,7 +1,6 @@
 #include "server/upkeep/data_lock.h"
 
 #include <cerrno>
-#include <cstring>
 #include <utility>
 
 #include <sys/file.h>
@@ -17,7 +16,7 @@ DataLock::DataLock(const std::filesystem::path& file) : file_(file, O_RDWR | O_C
 
 Result<std::unique_ptr<DataLock>> DataLock::take(const std::filesystem::path& data) {
   std::unique_ptr<DataLock> lock(new DataLock(data / lock_name));
-  if (!lock->file_.ok()) return Error{ErrorCode::io, "", std::strerror(errno)};
+  if (!lock->file_.ok()) return store::io_error(data / lock_name);
   if (::flock(lock->file_.get(), LOCK_EX | LOCK_NB) != 0)
     return Error{ErrorCode::mismatch, "", "another process holds the lock"};
   return Result<std::unique_ptr<DataLock>>(std::move(lock));

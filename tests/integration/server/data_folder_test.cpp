@@ -8,6 +8,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 
 #include "tests/integration/server/model_flow.h"
@@ -285,6 +286,98 @@ TEST_F(DataFolder, WhatIsNowhere_IsNamed) {
   EXPECT_THAT(
       server.errors(),
       HasSubstr("warning 1 recording of the database without a file in the data folder or its trash: " + recording));
+}
+
+/// What else may have the name of a file or folder. Some of it is waited for when it is opened, some never ends.
+enum class Instead { fifo, folder, loop, device };
+
+void put(Instead what, const fs::path& path) {
+  fs::remove_all(path);
+  fs::create_directories(path.parent_path());
+  if (what == Instead::fifo) ::mkfifo(path.c_str(), 0600);
+  if (what == Instead::folder) fs::create_directories(path / "content");
+  if (what == Instead::loop) fs::create_symlink(path, path);
+  if (what == Instead::device) fs::create_symlink("/dev/zero", path);
+}
+
+TEST_F(DataFolder, WhatIsNoFile_HoldsUpNoStart_AndIsNamed) {
+  Served served;
+  const auto first = folder_.path() / "first";
+  std::string finished, running, blob;
+  {
+    ServerProcess server(data());
+    served = make(server.port(), "talk");
+    for (const auto& [path, body] : served)
+      if (path.ends_with("?format=recording")) finished = path.substr(15, 12);
+    running = json_of(request(server.port(), "POST", "/v1/streams/talk/recordings"))["id"];
+    server.end(SIGKILL);
+  }
+  for (const auto& entry : fs::recursive_directory_iterator(data() / "blobs"))
+    if (entry.is_regular_file())
+      blob = "blobs/" + entry.path().filename().string().substr(0, 2) + "/" + entry.path().filename().string();
+  fs::copy(data(), first, fs::copy_options::recursive);
+  const std::string of_finished = "recordings/" + finished + ".srec", of_running = "recordings/" + running + ".srec";
+  const std::vector<std::string> folders = {"recordings", "blobs", "tmp", "trash"}, own = {"reserve", "last-database"};
+  for (const auto& names : {folders, own, {of_finished, of_running, blob}})
+    for (const auto& name : names)
+      for (const auto what : {Instead::fifo, Instead::folder, Instead::loop, Instead::device}) {
+        SCOPED_TRACE(name + " " + std::to_string(static_cast<int>(what)));
+        fs::remove_all(data());
+        fs::copy(first, data(), fs::copy_options::recursive);
+        put(what, data() / name);
+        ServerProcess server(data());
+        EXPECT_TRUE(fs::exists(fs::symlink_status(data() / name)) || name == "trash");
+        // The server's own files are replaced, unless it would remove a folder; the trash is not needed.
+        const bool is_well = names == own ? what != Instead::folder : names == folders && what == Instead::folder;
+        if (!is_well && name != "trash") {
+          EXPECT_THAT(server.errors(), HasSubstr(fs::path(name).stem().string()));
+        }
+        for (const auto& [path, body] : served) {
+          const auto reply = request(server.port(), "GET", path);
+          const bool of_recordings = path.ends_with("?format=recording");
+          const bool is_gone = of_recordings ? name == "recordings" || name == of_finished : name.starts_with("blobs");
+          if (!is_gone) {
+            EXPECT_EQ(reply.body, body) << path;
+          } else if (reply.status != 200) {
+            EXPECT_EQ(reply.status, of_recordings ? 409 : 500) << path;
+          }
+        }
+        EXPECT_EQ(server.end(SIGTERM), 0);
+      }
+}
+
+TEST_F(DataFolder, DatabaseThatIsNoFile_IsNamed_AndItsLogStays) {
+  {
+    ServerProcess server(data());
+    make(server.port(), "talk");
+    server.end(SIGKILL);
+  }
+  const auto log = data() / "semblante.sqlite-wal";
+  const auto bytes = fs::file_size(log);
+  ASSERT_GT(bytes, 0U);
+  fs::rename(database(), folder_.path() / "moved-away");
+  for (const auto what : {Instead::fifo, Instead::folder, Instead::loop, Instead::device}) {
+    put(what, database());
+    try {
+      const ServerProcess server(data());
+      ADD_FAILURE() << "started";
+    } catch (const std::runtime_error& fault) {
+      EXPECT_THAT(fault.what(), HasSubstr(database().string() + ": a "));
+      EXPECT_THAT(fault.what(), HasSubstr(" is in its place"));
+    }
+    EXPECT_EQ(fs::file_size(log), bytes);
+    EXPECT_FALSE(fs::exists(data() / "trash"));
+  }
+}
+
+TEST_F(DataFolder, FilesBehindALinkForUploads_AreNotRemoved) {
+  const auto other = folder_.path() / "other";
+  fs::create_directories(other);
+  std::ofstream(other / "letter") << "somebody's";
+  fs::create_directories(data());
+  fs::create_directory_symlink(other, data() / "tmp");
+  ServerProcess server(data());
+  EXPECT_TRUE(fs::exists(other / "letter"));
 }
 
 TEST_F(DataFolder, DeletedByItsUser_IsGoneAtOnce) {

@@ -40,13 +40,13 @@ TEST_F(ExportsTest, Slot_IsTakenUntilItIsReset) {
 
 TEST_F(ExportsTest, BeyondTheLimit_429_WithATimeToRetry) {
   const std::shared_ptr<store::Store> store = *store::open_sqlite_store(folder_ / "facts.sqlite");
-  auto blobs = *store::BlobStore::open(folder_);
+  auto blobs = store::BlobStore::open(folder_);
   store::PendingWrites pending{{}};
   jobs::JobQueue jobs({*store, *store, *store}, blobs, pending, {});
   streams::InProcessHub hub;
   recordings::RecorderLimits limits;
   limits.disk_reserve = 0;
-  const auto recorder = *recordings::Recorder::open(*store, *store, pending, folder_ / "recordings", limits);
+  const auto recorder = recordings::Recorder::open(*store, *store, pending, folder_ / "recordings", limits);
   const auto slots = std::make_shared<ExportSlots>(1);
   Context context{*store, blobs, pending, jobs, hub, {}, {}, recorder};
   context.exports = slots;

@@ -35,14 +35,14 @@ class IdempotencyTest : public ::testing::Test {
     std::string name = (std::filesystem::temp_directory_path() / "semblante-api-XXXXXX").string();
     folder_ = mkdtemp(name.data());
     store_ = *store::open_sqlite_store(folder_ / "facts.sqlite");
-    blobs_ = std::make_unique<store::BlobStore>(*store::BlobStore::open(folder_));
+    blobs_ = std::make_unique<store::BlobStore>(store::BlobStore::open(folder_));
     jobs::JobConfig jobs;
     jobs.max_queued = 100'000;
     jobs_ = std::make_unique<jobs::JobQueue>(jobs::JobStores{*store_, *store_, *store_}, *blobs_, pending_,
                                              jobs);  // not started: jobs stay queued
     recordings::RecorderLimits limits;
     limits.disk_reserve = 0;
-    recorder_ = *recordings::Recorder::open(*store_, *store_, pending_, folder_ / "recordings", limits);
+    recorder_ = recordings::Recorder::open(*store_, *store_, pending_, folder_ / "recordings", limits);
     ApiConfig config;
     config.limits.max_models = config.limits.max_streams = config.limits.max_expressions = 100'000;
     api_ = std::make_unique<Api>(Context{*store_, *blobs_, pending_, *jobs_, hub_, config, {}, recorder_});

@@ -27,7 +27,7 @@ class FullDiskQueueTest : public ::testing::Test {
     std::string name = (std::filesystem::temp_directory_path() / "semblante-queue-XXXXXX").string();
     folder_ = mkdtemp(name.data());
     store_ = *store::open_sqlite_store(folder_ / "facts.sqlite");
-    blobs_ = std::make_unique<store::BlobStore>(*store::BlobStore::open(folder_));
+    blobs_ = std::make_unique<store::BlobStore>(store::BlobStore::open(folder_));
     options_.first_delay = milliseconds(1);
     options_.longest_delay = milliseconds(5);
     options_.probe = [this] { store_->check_writable(); };

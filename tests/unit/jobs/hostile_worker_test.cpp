@@ -25,7 +25,7 @@ class HostileWorkerTest : public ::testing::Test {
     std::string name = (std::filesystem::temp_directory_path() / "semblante-hostile-XXXXXX").string();
     folder_ = mkdtemp(name.data());
     store_ = *store::open_sqlite_store(folder_ / "facts.sqlite");
-    blobs_ = std::make_unique<store::BlobStore>(*store::BlobStore::open(folder_));
+    blobs_ = std::make_unique<store::BlobStore>(store::BlobStore::open(folder_));
     pending_ = std::make_unique<store::PendingWrites>(store::PendingWrites::Options{});
     config_.limits = {std::uint64_t{512} << 20U, 60, std::uint64_t{1} << 20U};
   }

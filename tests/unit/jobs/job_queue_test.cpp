@@ -16,7 +16,7 @@ class JobQueueTest : public ::testing::Test {
     std::string name = (std::filesystem::temp_directory_path() / "semblante-queue-XXXXXX").string();
     folder_ = mkdtemp(name.data());
     store_ = *store::open_sqlite_store(folder_ / "facts.sqlite");
-    blobs_ = std::make_unique<store::BlobStore>(*store::BlobStore::open(folder_));
+    blobs_ = std::make_unique<store::BlobStore>(store::BlobStore::open(folder_));
   }
   ~JobQueueTest() override { std::filesystem::remove_all(folder_); }
 

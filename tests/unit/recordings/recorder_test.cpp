@@ -32,9 +32,7 @@ class RecorderTest : public ::testing::Test {
   }
   void begin() {
     recorder_.reset();
-    auto opened = Recorder::open(*store_, *store_, pending_, folder_.file("recordings"), limits_);
-    ASSERT_TRUE(opened) << opened.error().message;
-    recorder_ = std::move(*opened);
+    recorder_ = Recorder::open(*store_, *store_, pending_, folder_.file("recordings"), limits_);
   }
   RecordingRecord start(std::optional<std::uint64_t> max_duration = std::nullopt) {
     auto record = recorder_->start({stream_header(), "take", max_duration}, std::nullopt);

@@ -25,21 +25,20 @@ class BlobStoreTest : public ::testing::Test {
 
 TEST_F(BlobStoreTest, Blobs_AreNamedByTheirContent) {
   auto blobs = BlobStore::open(folder_);
-  ASSERT_TRUE(blobs);
-  const auto blob = blobs->put("abc");
+  const auto blob = blobs.put("abc");
   ASSERT_TRUE(blob);
   // FIPS 180-2, appendix B.1.
   EXPECT_EQ(blob->sha256, "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
   EXPECT_EQ(blob->bytes, 3U);
-  EXPECT_TRUE(blobs->find(blob->sha256));
-  EXPECT_EQ(blobs->put("abc")->sha256, blob->sha256);
+  EXPECT_TRUE(blobs.find(blob->sha256));
+  EXPECT_EQ(blobs.put("abc")->sha256, blob->sha256);
   for (const auto& name : {std::string(), std::string("../facts.sqlite"), std::string("BA78"), std::string(64, '/')})
-    EXPECT_FALSE(blobs->find(name));
-  EXPECT_FALSE(blobs->adopt(folder_ / "absent"));
-  const auto other = blobs->put("other");
-  blobs->remove(blob->sha256);
-  EXPECT_FALSE(blobs->find(blob->sha256));
-  EXPECT_TRUE(blobs->find(other->sha256));
+    EXPECT_FALSE(blobs.find(name));
+  EXPECT_FALSE(blobs.adopt(folder_ / "absent"));
+  const auto other = blobs.put("other");
+  blobs.remove(blob->sha256);
+  EXPECT_FALSE(blobs.find(blob->sha256));
+  EXPECT_TRUE(blobs.find(other->sha256));
 }
 
 TEST_F(BlobStoreTest, LinkInThePlaceOfABlob_IsNone_AndIsReplaced) {
@@ -48,9 +47,9 @@ TEST_F(BlobStoreTest, LinkInThePlaceOfABlob_IsNone_AndIsReplaced) {
   std::filesystem::create_directories(folder_ / "blobs" / hash.substr(0, 2));
   const auto link = folder_ / "blobs" / hash.substr(0, 2) / hash;
   std::filesystem::create_symlink(folder_ / "facts.sqlite", link);
-  EXPECT_FALSE(blobs->find(hash));
-  ASSERT_TRUE(blobs->put("abc"));
-  EXPECT_EQ(blobs->find(hash), link);
+  EXPECT_FALSE(blobs.find(hash));
+  ASSERT_TRUE(blobs.put("abc"));
+  EXPECT_EQ(blobs.find(hash), link);
   EXPECT_EQ(std::filesystem::file_size(link), 3U);
 }
 
@@ -83,42 +82,42 @@ TEST_F(BlobStoreTest, DamagedBlob_IsNotWhole_AndIsMendedByTheSameBytes) {
   for (const auto& damage : damages) {
     for (const bool known : {false, true}) {
       SCOPED_TRACE(std::string(damage.name) + (known ? ", verified before" : ""));
-      const auto hash = BlobStore::open(folder_)->put("abc")->sha256;
+      const auto hash = BlobStore::open(folder_).put("abc")->sha256;
       const auto blobs = BlobStore::open(folder_);  // another process
-      const auto file = *blobs->find(hash);
+      const auto file = *blobs.find(hash);
       if (known) {
-        EXPECT_EQ(blobs->whole(hash), file);
+        EXPECT_EQ(blobs.whole(hash), file);
       }
       damage.apply(file);
       try {
-        (void)blobs->whole(hash);
+        (void)blobs.whole(hash);
         ADD_FAILURE() << "it is given out";
       } catch (const DamagedBlob& fault) {
         EXPECT_NE(std::string(fault.what()).find(hash), std::string::npos);
         EXPECT_EQ(std::string(fault.what()).find(folder_.string()), std::string::npos);
       }
-      ASSERT_TRUE(blobs->put("abc"));
-      EXPECT_EQ(blobs->whole(hash), file);
+      ASSERT_TRUE(blobs.put("abc"));
+      EXPECT_EQ(blobs.whole(hash), file);
       EXPECT_EQ(std::filesystem::file_size(file), 3U);
-      EXPECT_EQ(BlobStore::open(folder_)->whole(hash), file);
+      EXPECT_EQ(BlobStore::open(folder_).whole(hash), file);
     }
   }
 }
 
 TEST_F(BlobStoreTest, IntactBlob_IsKeptWhenItComesAgain) {
   const auto blobs = BlobStore::open(folder_);
-  const auto hash = blobs->put("abc")->sha256;
-  const auto file = *blobs->find(hash);
+  const auto hash = blobs.put("abc")->sha256;
+  const auto file = *blobs.find(hash);
   std::filesystem::create_hard_link(file, folder_ / "the-same-file");
-  EXPECT_EQ(blobs->whole(hash), file);
-  ASSERT_TRUE(blobs->put("abc"));
+  EXPECT_EQ(blobs.whole(hash), file);
+  ASSERT_TRUE(blobs.put("abc"));
   EXPECT_TRUE(std::filesystem::equivalent(file, folder_ / "the-same-file"));
 }
 
 TEST_F(BlobStoreTest, WhateverIsNoHash_IsNotWhole) {
   const auto blobs = BlobStore::open(folder_);
   for (const auto& name : {std::string(), std::string("../facts.sqlite"), std::string(64, '/')})
-    EXPECT_THROW((void)blobs->whole(name), DamagedBlob);
+    EXPECT_THROW((void)blobs.whole(name), DamagedBlob);
 }
 
 }  // namespace
