@@ -8,13 +8,17 @@ namespace semblante::client {
 
 Result<Url> parse_url(std::string_view text) {
   const std::string whole(text);
+  const auto no_address = [&whole] {
+    return Error{ErrorCode::invalid_argument, whole, "an address is http://HOST[:PORT][/PATH], or https://"};
+  };
   Url url;
-  if (text.starts_with("https://")) {
-    url.secure = true;
-    url.port = "443";
-    text.remove_prefix(8);
-  } else if (text.starts_with("http://")) {
-    text.remove_prefix(7);
+  if (const auto end = text.find("://"); end != std::string_view::npos) {
+    std::string scheme(text.substr(0, end));
+    std::transform(scheme.begin(), scheme.end(), scheme.begin(), [](unsigned char c) { return std::tolower(c); });
+    if (scheme != "http" && scheme != "https") return no_address();
+    url.secure = scheme == "https";
+    if (url.secure) url.port = "443";
+    text.remove_prefix(end + 3);
   }
   const std::size_t slash = text.find('/');
   std::string_view authority = text.substr(0, slash);
@@ -42,7 +46,7 @@ Result<Url> parse_url(std::string_view text) {
   const auto is_bad = [](unsigned char c) { return c <= ' ' || c == '@' || c == '?' || c == '#' || c > '~'; };
   if (url.host.empty() || url.host.find_first_of("[]") != std::string::npos ||
       std::any_of(whole.begin(), whole.end(), is_bad)) {
-    return Error{ErrorCode::invalid_argument, whole, "an address is http://HOST[:PORT][/PATH], or https://"};
+    return no_address();
   }
   return url;
 }

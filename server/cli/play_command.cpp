@@ -95,6 +95,9 @@ class Playing {
            << options_.loop << "&take_over=" << options_.take_over;
     if (options_.rate > 0.0) target << "&fps=" << options_.rate;
     if (options_.from > 0.0) target << "&from=" << options_.from;
+    // From here on there is something to stop. Before, a signal ends the process, which may wait for its file.
+    std::signal(SIGINT, [](int) { interrupted = true; });
+    std::signal(SIGTERM, [](int) { interrupted = true; });
     const auto reply = ask("POST", target.str(), fap ? "text/plain" : "application/json", std::move(text));
     if (reply.status != 202)
       refuse_to_play(options_.file + ": " + reason_of(reply) +
@@ -162,8 +165,6 @@ void run(const PlayCommand& options) {
     if (!((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-' || c == '_'))
       refuse_to_play("--stream: it takes lower-case letters, digits, - and _");
   Playing playing(options);
-  std::signal(SIGINT, [](int) { interrupted = true; });
-  std::signal(SIGTERM, [](int) { interrupted = true; });
   if (options.create) playing.create_stream();
   playing.begin();
   playing.follow();

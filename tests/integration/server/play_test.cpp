@@ -1,13 +1,22 @@
 // `semblante play` against a real server: two real processes.
 
+#include <array>
+#include <csignal>
+#include <fcntl.h>
+#include <spawn.h>
 #include <thread>
+#include <unistd.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/stat.h>
+#include <sys/wait.h>
 
 #include "tests/integration/cli/program.h"
 #include "tests/integration/server/test_client.h"
+
+extern char** environ;
 
 namespace semblante::test {
 namespace {
@@ -71,6 +80,30 @@ TEST_F(Play, WhatIsWrong_IsSaidInOneLine) {
   for (const auto* address :
        {"ftp://localhost", "localhost:8080", "http://", "http://a/b", "http://[::1", "http://a:x"})
     EXPECT_EQ(run_semblante({"play", good, "--server", address, "--stream", "s"}).exit_code, 2) << address;
+  for (const auto* scheme : {"ftp://localhost", "javascript://a", "://a"})
+    EXPECT_THAT(run_semblante({"play", good, "--server", scheme, "--stream", "s"}).err,
+                HasSubstr("an address is http"));
+  const auto shouted = "HTTP://127.0.0.1:" + std::to_string(server_.port());
+  EXPECT_THAT(run_semblante({"play", good, "--server", shouted, "--stream", "nowhere"}).err,
+              HasSubstr("there is no stream nowhere"));
+}
+
+TEST_F(Play, SignalsEndIt_AlsoWhileItWaitsForItsFile) {
+  const auto pipe = workspace_.path("pipe");
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  for (const auto signal : {SIGTERM, SIGINT}) {
+    const std::string program = SEMBLANTE_BINARY_DIR "/bin/semblante";
+    std::array<const char*, 6> arguments = {program.c_str(), "play", pipe.c_str(), "--stream", "s", nullptr};
+    pid_t child = -1;
+    ASSERT_EQ(posix_spawn(&child, program.c_str(), nullptr, nullptr, const_cast<char**>(arguments.data()), environ), 0);
+    // It opens the pipe, and waits for what is never written.
+    const int end = ::open(pipe.c_str(), O_WRONLY);
+    ::kill(child, signal);
+    int status = 0;
+    EXPECT_TRUE(testing::eventually([&] { return ::waitpid(child, &status, WNOHANG) == child; }));
+    EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == signal);
+    ::close(end);
+  }
 }
 
 TEST_F(Play, TakesOverOnlyIfItIsTold_AndTheFirstSaysWhy) {

@@ -128,7 +128,7 @@ TEST(HttpClient, FetchWithItsOwnBound_RefusesMore) {
 TEST(Url, Malformed_IsRefused) {
   for (const char* text :
        {"", "http://", "http://host:", "http://host:0", "http://host:65536", "http://host:12x", "http://[::1",
-        "http://user@host", "http://ho st", "http://host/\r\nX: y", "http://host?x", "http://h#x"}) {
+        "http://user@host", "ftp://host", "://host", "http://http://host", "http://ho st", "http://host/\r\nX: y", "http://host?x", "http://h#x"}) {
     const auto url = parse_url(text);
     ASSERT_FALSE(url) << text;
     EXPECT_EQ(url.error().code, ErrorCode::invalid_argument) << text;
@@ -148,6 +148,7 @@ TEST(Url, Parts_AreTakenApart) {
   EXPECT_TRUE(secure->secure);
   EXPECT_EQ(secure->host, "faces.example");
   EXPECT_EQ(secure->port, "443");
+  EXPECT_TRUE(parse_url("HTTPS://faces.example")->secure);
   EXPECT_EQ(parse_url("https://faces.example:8443")->port, "8443");
   EXPECT_EQ(url->authority(), "[::1]:8080");
   EXPECT_EQ(parse_url("http://host")->authority(), "host:80");
