@@ -5,12 +5,14 @@
 
 #include "server/app/commands.h"
 #include "server/app/installed_files.h"
+#include "server/app/standard_streams.h"
 #include "server/cli/command_failure.h"
 #include "server/cli/commands.h"
 
-// Only a mistake in the options themselves throws outside a try: it may end the program.
-int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape)
-  using namespace semblante;
+namespace semblante {
+namespace {
+
+int run_command(int argc, char** argv) {
   CLI::App app("Semblante: a 3D head becomes a face that talks over a thin wire", "semblante");
   app.require_subcommand(1);
   app.set_version_flag("--version", std::string("semblante ") + SEMBLANTE_VERSION);
@@ -56,4 +58,16 @@ int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape)
     std::cerr << "semblante: internal error: " << fault.what() << "\n";
     return CommandFailure::internal;
   }
+}
+
+}  // namespace
+}  // namespace semblante
+
+// Only a mistake in the options themselves throws outside a try: it may end the program.
+int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape)
+  semblante::open_standard_streams();
+  const int code = semblante::run_command(argc, argv);
+  if (semblante::is_output_written()) return code;
+  std::cerr << "semblante: standard output cannot be written\n";
+  return code != 0 ? code : semblante::CommandFailure::internal;
 }

@@ -1,10 +1,14 @@
 // The real program on heads made here: what it writes, and how it refuses.
 #include <algorithm>
+#include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <sstream>
+#include <string>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/wait.h>
 
 #include "core/geometry/surface.h"
 #include "core/import/feature_points_file.h"
@@ -12,6 +16,7 @@
 #include "core/parametrize/parametrize.h"
 #include "core/parametrize/place_feature_points.h"
 #include "tests/integration/cli/program.h"
+#include "tests/support/wait.h"
 
 namespace semblante::test {
 namespace {
@@ -453,6 +458,44 @@ TEST(Cli, Help_NamesTheEnvironment_OfEveryOption) {
     }
     EXPECT_GT(options, 3U);
   }
+}
+
+/// Runs the program with these arguments and redirections of a shell; its exit code.
+int run_in_shell(const std::string& arguments) {
+  const int status = std::system(("\"" SEMBLANTE_BINARY_DIR "/bin/semblante\" " + arguments).c_str());
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+TEST(Cli, OutputThatIsLost_IsNoSuccess) {
+  const Workspace workspace;
+  const auto said = workspace.path("said");
+  EXPECT_EQ(run_in_shell("version > /dev/full 2> " + said), 1);
+  EXPECT_EQ(read_text(said), "semblante: standard output cannot be written\n");
+  EXPECT_EQ(run_in_shell("serve --help > /dev/full 2> /dev/null"), 1);
+  EXPECT_EQ(run_in_shell("version > /dev/null"), 0);
+  EXPECT_EQ(run_in_shell("version >&-"), 0) << "somebody does not want it";
+}
+
+TEST(Cli, ClosedStreams_AreTakenByNoFile) {
+  const Workspace workspace;
+  const auto data = workspace.path("data"), running = workspace.path("pid");
+  ASSERT_EQ(std::system(("\"" SEMBLANTE_BINARY_DIR "/bin/semblante\" serve --port 0 --data " + data +
+                         " <&- >&- 2>&- & echo $! > " + running)
+                            .c_str()),
+            0);
+  const pid_t pid = std::stoi(read_text(running));
+  EXPECT_TRUE(testing::eventually([&] { return std::filesystem::exists(data + "/last-database"); }));
+  for (const auto* number : {"0", "1", "2"}) {
+    std::error_code error;
+    const auto file = std::filesystem::read_symlink("/proc/" + std::to_string(pid) + "/fd/" + number, error);
+    EXPECT_EQ(file, "/dev/null") << number << error.message();
+  }
+  ::kill(pid, SIGTERM);
+  EXPECT_TRUE(testing::eventually([&] {
+    std::error_code gone;  // of a zombie too, where nobody waits for orphans
+    std::filesystem::read_symlink("/proc/" + std::to_string(pid) + "/exe", gone);
+    return static_cast<bool>(gone);
+  }));
 }
 
 }  // namespace
