@@ -54,11 +54,13 @@ export function expectIds(stream: string, model: string | null): void {
   if (model !== null && !isText(model)) throw trouble('model-unready');
 }
 
+/** Of an id that is not there, that no id can be (400), or that is longer than any (414, 431). */
+const absentStatuses: ReadonlySet<number> = new Set([400, 404, 414, 431]);
+
 /** What a status of the server means here. */
 function troubleOf(status: number, absent: Trouble, name: string): FaceTrouble {
   if (status === 401 || status === 403) return trouble('private');
-  // 414, 431: an id that is longer than any.
-  return trouble(status === 404 || status === 414 || status === 431 ? absent : 'server', name);
+  return trouble(absentStatuses.has(status) ? absent : 'server', name);
 }
 
 /** The id of the model that a stream shows. Throws FaceTrouble. */

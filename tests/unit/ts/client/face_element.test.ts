@@ -1,8 +1,8 @@
-import { expect, test } from 'vitest';
+import { afterEach, expect, test, vi } from 'vitest';
 import type { RigDocument, Vec3 } from '../../../../protocol/ts/index.ts';
 import { budgetOf, cheaperSteps, firstVertices, type Device } from '../../../../clients/js/element/detail.ts';
 import { fewerPixels, Pace } from '../../../../clients/js/view/pace.ts';
-import { expectIds, serverOf } from '../../../../clients/js/element/loader.ts';
+import { expectIds, modelOf, serverOf } from '../../../../clients/js/element/loader.ts';
 import { FaceTrouble, isPassing } from '../../../../clients/js/element/words.ts';
 import { OrbitCamera } from '../../../../clients/js/view/camera.ts';
 import { frameOf } from '../../../../clients/js/view/framing.ts';
@@ -149,6 +149,23 @@ test('expectIds_HalfACharacter_IsNoId', () => {
   for (const id of ['demo', '../..', 'javascript:alert(1)', '😀']) expectIds(id, id);
   expect((catchOf(() => expectIds('a\uD800', null)) as FaceTrouble).code).toBe('no-stream');
   expect((catchOf(() => expectIds('demo', '\uDC00')) as FaceTrouble).code).toBe('model-unready');
+});
+
+test('modelOf_AnIdThatNoStreamHas_IsAbsent_NotAFaultOfTheServer', async () => {
+  const source = { base: 'https://faces.example', stream: 'a/../b', model: null, token: null };
+  const codes = new Map<number, string>();
+  for (const status of [400, 404, 414, 431, 401, 403, 429, 500, 503]) {
+    vi.stubGlobal('fetch', async () => new Response('{}', { status }));
+    const trouble = await modelOf(source, new AbortController().signal).catch((error: unknown) => error);
+    codes.set(status, (trouble as FaceTrouble).code);
+  }
+  for (const status of [400, 404, 414, 431]) expect(codes.get(status), `${status}`).toBe('no-stream');
+  for (const status of [401, 403]) expect(codes.get(status), `${status}`).toBe('private');
+  for (const status of [429, 500, 503]) expect(codes.get(status), `${status}`).toBe('server');
+});
+
+afterEach(() => {
+  vi.unstubAllGlobals();
 });
 
 function catchOf(call: () => unknown): unknown {
