@@ -126,9 +126,9 @@ TEST(HttpClient, FetchWithItsOwnBound_RefusesMore) {
 }
 
 TEST(Url, Malformed_IsRefused) {
-  for (const char* text :
-       {"", "http://", "http://host:", "http://host:0", "http://host:65536", "http://host:12x", "http://[::1",
-        "http://user@host", "ftp://host", "://host", "http://http://host", "http://ho st", "http://host/\r\nX: y", "http://host?x", "http://h#x"}) {
+  for (const char* text : {"", "http://", "http://host:", "http://host:0", "http://host:65536", "http://host:12x",
+                           "http://[::1", "http://user@host", "ftp://host", "://host", "http://http://host",
+                           "http://ho st", "http://host/\r\nX: y", "http://host?x", "http://h#x"}) {
     const auto url = parse_url(text);
     ASSERT_FALSE(url) << text;
     EXPECT_EQ(url.error().code, ErrorCode::invalid_argument) << text;
