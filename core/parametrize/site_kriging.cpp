@@ -94,7 +94,9 @@ SiteKriging::SiteKriging(const Surface& surface, const PointDistances& distances
       sites_(std::move(sites)),
       unit_(unit),
       kernel_(kernel),
-      kriging_(covariances(sites_, unit, kernel), sites_.size()) {}
+      kriging_(covariances(sites_, unit, kernel), sites_.size()) {
+  for (const KrigingSite& site : sites_) places_.push_back(site.position);
+}
 
 std::span<const SiteKriging::Term> SiteKriging::at(std::size_t member) {
   const SurfaceVertexId vertex = distances_.members[member];
@@ -104,7 +106,10 @@ std::span<const SiteKriging::Term> SiteKriging::at(std::size_t member) {
   candidates_.clear();
   to_target_.clear();
   terms_.clear();
+  const double certainly_out = reach * reach * (1.0 + 1e-9);
   for (std::size_t s = 0; s < sites_.size(); ++s) {
+    const glm::dvec3 offset = p - places_[s];
+    if (glm::dot(offset, offset) > certainly_out) continue;  // most sites, without a root
     const KrigingSite& site = sites_[s];
     if (vertex == site.vertex || (site.slot && along_surface[*site.slot] == 0.0)) {
       terms_.assign(1, {&site, 1.0});

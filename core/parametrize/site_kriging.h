@@ -65,6 +65,7 @@ class SiteKriging {
   const Surface& surface_;
   const PointDistances& distances_;
   std::vector<KrigingSite> sites_;
+  std::vector<glm::dvec3> places_;  ///< of the sites
   double unit_;
   KrigingKernel kernel_;
   NonNegativeKriging kriging_;
