@@ -119,8 +119,8 @@ WeightTable<double> smooth_part_weights(const Surface& surface, const PointDista
   std::vector<const Row*> in_cavity(distances.members.size(), nullptr);
   std::vector<std::vector<Row>> cavity_rows_of(cavities.size());
   WeightPrior::Places places;
-  places.fill(WeightPrior::nowhere);
-  for (const SurfacePoint& point : distances.points) places[point.id.value()] = point.vertex.value();
+  for (const SurfacePoint& point : distances.points)
+    places[point.id.value()] = {point.vertex.value(), point.position / unit};
   std::vector<std::size_t> order;
   const auto smooth_row = [&](std::size_t m) {
     Row row = row_of_points(points, m);
@@ -131,13 +131,24 @@ WeightTable<double> smooth_part_weights(const Surface& surface, const PointDista
     }
     cut(row);
     keep_greatest(row, order);
-    prior.correct(row, places);
+    prior.correct(row, surface.positions[distances.members[m].value()] / unit, places);
     keep_greatest(row, order);
     return row;
   };
+  // Cavities ask for the same rows again and again: those of the rim and of the skin in front.
+  constexpr std::uint32_t not_kept = 0xFFFFFFFFU;
+  std::vector<std::uint32_t> kept_at(distances.members.size(), not_kept);
+  std::vector<Row> kept;
+  const auto kept_row = [&](SurfaceVertexId vertex) {
+    std::uint32_t& at = kept_at[member_of(distances, vertex)];
+    if (at == not_kept) {
+      at = static_cast<std::uint32_t>(kept.size());
+      kept.push_back(smooth_row(member_of(distances, vertex)));
+    }
+    return kept[at];
+  };
   for (std::size_t c = 0; c < cavities.size(); ++c) {
-    cavity_rows_of[c] =
-        cavity_rows(surface, cavities[c], unit, [&](SurfaceVertexId v) { return smooth_row(member_of(distances, v)); });
+    cavity_rows_of[c] = cavity_rows(surface, cavities[c], unit, kept_row);
     for (std::size_t k = 0; k < cavities[c].members.size(); ++k) {
       in_cavity[member_of(distances, cavities[c].members[k])] = &cavity_rows_of[c][k];
     }
@@ -150,7 +161,7 @@ WeightTable<double> smooth_part_weights(const Surface& surface, const PointDista
       row = *in_cavity[m];
       keep_greatest(row, order);
     } else {
-      row = smooth_row(m);
+      row = kept_at[m] != not_kept ? kept[kept_at[m]] : smooth_row(m);
     }
     for (std::size_t id = 0; id < row.size(); ++id) {
       if (row[id] >= least_weight) table.push(FeaturePointId(static_cast<std::uint8_t>(id)), row[id]);

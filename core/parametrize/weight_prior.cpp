@@ -1,6 +1,7 @@
 #include "core/parametrize/weight_prior.h"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 
 #include "core/tables/mpeg4.h"
@@ -14,7 +15,7 @@ constexpr WeightPrior::Entry trained_entries[] = {
 };
 
 bool on_edge(const mpeg4::Opening& opening, std::size_t id) {
-  if (id == WeightPrior::root) return false;
+  if (id >= WeightPrior::root) return false;
   for (const auto& names : {opening.upper, opening.lower, opening.corners}) {
     for (const std::string_view name : names) {
       if (parse_feature_point(name)->value() == id) return true;
@@ -23,14 +24,34 @@ bool on_edge(const mpeg4::Opening& opening, std::size_t id) {
   return false;
 }
 
+/// 1 for points on the edge of a lip or lid, 0 for others.
+const WeightRow& edge_points() {
+  static const WeightRow marked = [] {
+    WeightRow on_edges{};
+    for (std::size_t id = 0; id < on_edges.size(); ++id) {
+      const bool is_on_one = std::any_of(mpeg4::openings.begin(), mpeg4::openings.end(),
+                                         [&](const mpeg4::Opening& o) { return on_edge(o, id); });
+      on_edges[id] = is_on_one ? 1.0 : 0.0;
+    }
+    return on_edges;
+  }();
+  return marked;
+}
+
 }  // namespace
 
 bool WeightPrior::allows(std::size_t i, std::size_t j) {
+  if (j >= first_axis) return edge_points()[i] == 0.0;
   return std::none_of(mpeg4::openings.begin(), mpeg4::openings.end(),
                       [&](const mpeg4::Opening& o) { return on_edge(o, i) && on_edge(o, j); });
 }
 
-std::size_t WeightPrior::mirrored(std::size_t id) { return id == root ? root : mpeg4::feature_points[id].mirror; }
+std::size_t WeightPrior::mirrored(std::size_t id) { return id >= root ? id : mpeg4::feature_points[id].mirror; }
+
+double WeightPrior::share_off_edges(const WeightRow& row) {
+  const double on_edges = std::inner_product(row.begin(), row.end(), edge_points().begin(), 0.0);
+  return 1.0 - on_edges;
+}
 
 WeightPrior::WeightPrior(std::span<const Entry> entries) {
   struct Placed {
@@ -44,10 +65,10 @@ WeightPrior::WeightPrior(std::span<const Entry> entries) {
     const auto [i, j] = std::minmax({mirrored(e.i), mirrored(e.j)});
     const std::size_t k = mirrored(e.k);
     if (cell(i, j) == placed.back().cell && k == e.k) continue;
-    placed.push_back({cell(i, j), {static_cast<std::uint8_t>(k), factor}});
+    placed.push_back({cell(i, j), {static_cast<std::uint8_t>(k), sign_of_image(e.j) * factor}});
   }
   std::stable_sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) { return a.cell < b.cell; });
-  offsets_.assign((feature_point_count + 1) * (feature_point_count + 1) + 1, 0);
+  offsets_.assign(column_count * column_count + 1, 0);
   for (const Placed& p : placed) {
     ++offsets_[p.cell + 1];
     corrections_.push_back(p.correction);
@@ -55,10 +76,10 @@ WeightPrior::WeightPrior(std::span<const Entry> entries) {
   std::partial_sum(offsets_.begin(), offsets_.end(), offsets_.begin());
 }
 
-void WeightPrior::correct(WeightRow& row, const Places& places) const {
+void WeightPrior::correct(WeightRow& row, const glm::dvec3& position, const Places& places) const {
   if (offsets_.empty()) return;
-  std::array<std::uint8_t, feature_point_count + 1> ids{};
-  std::array<double, feature_point_count + 1> shares{};
+  std::array<std::uint8_t, feature_point_count> ids{};
+  std::array<double, feature_point_count> shares{};
   std::size_t count = 0;
   double sum = 0.0;
   for (std::size_t id = 0; id < row.size(); ++id) {
@@ -68,20 +89,24 @@ void WeightPrior::correct(WeightRow& row, const Places& places) const {
     ids[count++] = static_cast<std::uint8_t>(id);
   }
   if (count == 0) return;
-  if (sum < 1.0) {
-    shares[count] = 1.0 - sum;
-    ids[count++] = root;
-  }
   WeightRow change{};
+  const auto add = [&](std::size_t i, std::size_t j, double amount) {
+    const std::size_t at = cell(i, j);
+    for (std::uint32_t c = offsets_[at]; c < offsets_[at + 1]; ++c) {
+      const Correction& correction = corrections_[c];
+      if (places[correction.point].vertex != nowhere) change[correction.point] += amount * correction.factor;
+    }
+  };
+  const double off_edges = share_off_edges(row);
   for (std::size_t a = 0; a < count; ++a) {
+    const std::size_t i = ids[a];
     for (std::size_t b = a + 1; b < count; ++b) {
-      if (ids[b] != root && places[ids[a]] == places[ids[b]]) continue;
-      const double both = shares[a] * shares[b] * (ids[b] == root ? sum : 1.0);
-      const std::size_t at = cell(ids[a], ids[b]);
-      for (std::uint32_t c = offsets_[at]; c < offsets_[at + 1]; ++c) {
-        const Correction& correction = corrections_[c];
-        if (places[correction.point] != nowhere) change[correction.point] += both * correction.factor;
-      }
+      if (places[i].vertex != places[ids[b]].vertex) add(i, ids[b], shares[a] * shares[b]);
+    }
+    if (sum < 1.0) add(i, root, shares[a] * (1.0 - sum) * sum);
+    const glm::dvec3 offset = (position - places[i].position) / offset_unit;
+    for (int axis = 0; axis < 3; ++axis) {
+      add(i, first_axis + static_cast<std::size_t>(axis), shares[a] * offset[axis] * off_edges);
     }
   }
   double corrected = 0.0;

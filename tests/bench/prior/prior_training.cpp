@@ -13,6 +13,8 @@ namespace semblante::bench {
 namespace {
 
 constexpr double table_ridge = 1e-5;
+/// More, since offsets do not end where weights change their neighbours: less fits the own head better, others worse.
+constexpr double axis_ridge = 3e-5;
 constexpr double roughness_ridge = 1.0;
 /// Against sums over one, which WeightPrior scales down.
 constexpr double sum_penalty = 1e-3;
@@ -26,13 +28,15 @@ constexpr auto point_count = static_cast<Eigen::Index>(feature_point_count);
 using Matrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 struct Pair {
-  std::size_t i, j;  ///< i < j
+  std::size_t i, j;  ///< i < j; j may be root or an axis
 };
 
 /// One head, reduced to what the fit needs.
 struct Lesson {
   double weight;
-  Matrix rows;      ///< #skin x 84, without a prior
+  Matrix rows;                                                  ///< #skin x 84, without a prior
+  std::vector<glm::dvec3> positions;                            ///< #skin, in ES0
+  std::array<glm::dvec3, feature_point_count> point_positions;  ///< in ES0; of points that the head has
   Matrix gram;      ///< 84 x 84: sum over the expressions of the points' displacements, multiplied
   Matrix wanted;    ///< #skin x 84: the same with the vertex's displacement
   Matrix products;  ///< #skin x #pairs
@@ -60,14 +64,21 @@ Lesson lesson_of(const TrainingHead& head) {
   }
   Lesson lesson{head.weight,
                 Matrix(count, point_count),
+                {},
+                {},
                 Matrix::Zero(point_count, point_count),
                 Matrix::Zero(count, point_count),
                 {},
                 {count, count}};
   const Matrix all = rows_of(study);
+  const double unit = weight_unit(study.distances, study.eye_separation);
   for (std::size_t m = 0; m < skin.size(); ++m) {
-    if (skin[m] >= 0) lesson.rows.row(skin[m]) = all.row(static_cast<Eigen::Index>(m));
+    if (skin[m] < 0) continue;
+    lesson.rows.row(skin[m]) = all.row(static_cast<Eigen::Index>(m));
+    lesson.positions.push_back(study.position(m) / unit);
   }
+  for (const SurfacePoint& point : study.distances.points)
+    lesson.point_positions[point.id.value()] = point.position / unit;
   for (const Expression& expression : study.expressions) {
     double size = 0.0;
     for (const glm::dvec3& d : expression.displacement) size += glm::dot(d, d);
@@ -113,17 +124,7 @@ class Fit {
   explicit Fit(std::span<const TrainingHead> heads) {
     for (const TrainingHead& head : heads) lessons_.push_back(lesson_of(head));
     choose_pairs();
-    for (Lesson& lesson : lessons_) {
-      const Matrix all = with_root(lesson.rows);
-      lesson.products.resize(all.rows(), static_cast<Eigen::Index>(pairs_.size()));
-      for (std::size_t p = 0; p < pairs_.size(); ++p) {
-        lesson.products.col(static_cast<Eigen::Index>(p)) =
-            all.col(static_cast<Eigen::Index>(pairs_[p].i))
-                .cwiseProduct(all.col(static_cast<Eigen::Index>(pairs_[p].j)));
-        if (pairs_[p].j != WeightPrior::root) continue;
-        lesson.products.col(static_cast<Eigen::Index>(p)).array() *= 1.0F - all.col(point_count).array();
-      }
-    }
+    for (Lesson& lesson : lessons_) find_products(lesson);
   }
 
   std::vector<WeightPrior::Entry> solve() {
@@ -151,6 +152,31 @@ class Fit {
  private:
   static constexpr int least_hundredths = 5;
 
+  /// The factors of the table's rows at every vertex, as WeightPrior::correct has them.
+  void find_products(Lesson& lesson) const {
+    const Matrix all = with_root(lesson.rows);
+    lesson.products.resize(all.rows(), static_cast<Eigen::Index>(pairs_.size()));
+    std::vector<double> off_edges;
+    for (Eigen::Index m = 0; m < all.rows(); ++m) {
+      WeightRow row{};
+      for (std::size_t id = 0; id < row.size(); ++id) row[id] = lesson.rows(m, static_cast<Eigen::Index>(id));
+      off_edges.push_back(WeightPrior::share_off_edges(row));
+    }
+    for (std::size_t p = 0; p < pairs_.size(); ++p) {
+      const auto [i, j] = pairs_[p];
+      auto column = lesson.products.col(static_cast<Eigen::Index>(p));
+      column = all.col(static_cast<Eigen::Index>(i));
+      if (j <= WeightPrior::root) column.array() *= all.col(static_cast<Eigen::Index>(j)).array();
+      if (j == WeightPrior::root) column.array() *= 1.0F - all.col(point_count).array();
+      if (j < WeightPrior::first_axis) continue;
+      const auto axis = static_cast<int>(j - WeightPrior::first_axis);
+      for (std::size_t m = 0; m < off_edges.size(); ++m) {
+        const double offset = (lesson.positions[m] - lesson.point_positions[i])[axis] / WeightPrior::offset_unit;
+        column(static_cast<Eigen::Index>(m)) *= static_cast<float>(offset * off_edges[m]);
+      }
+    }
+  }
+
   void choose_pairs() {
     Eigen::MatrixXd together = Eigen::MatrixXd::Zero(point_count + 1, point_count + 1);
     for (const Lesson& lesson : lessons_) {
@@ -169,11 +195,20 @@ class Fit {
         if (shared > least_pair && WeightPrior::allows(i, j)) pairs_.push_back({i, j});
       }
     }
+    for (std::size_t i = 0; i < feature_point_count; ++i) {
+      for (std::size_t axis = WeightPrior::first_axis; axis < WeightPrior::column_count; ++axis) {
+        const double used = both(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i));
+        if (used > least_pair && WeightPrior::allows(i, axis)) pairs_.push_back({i, axis});
+      }
+    }
     mask_ = Matrix::Zero(static_cast<Eigen::Index>(pairs_.size()), point_count);
+    ridge_.resize(mask_.rows());
     for (std::size_t p = 0; p < pairs_.size(); ++p) {
+      const bool is_offset = pairs_[p].j >= WeightPrior::first_axis;
+      ridge_[static_cast<Eigen::Index>(p)] = static_cast<float>(is_offset ? axis_ridge : table_ridge);
       for (Eigen::Index k = 0; k < point_count; ++k) {
         for (const std::size_t of : {pairs_[p].i, pairs_[p].j}) {
-          const bool near = of != WeightPrior::root && both(static_cast<Eigen::Index>(of), k) > least_target;
+          const bool near = of < WeightPrior::root && both(static_cast<Eigen::Index>(of), k) > least_target;
           if (near) mask_(static_cast<Eigen::Index>(p), k) = 1.0F;
         }
       }
@@ -194,7 +229,8 @@ class Fit {
     Matrix result(table.rows(), table.cols());
     for (Eigen::Index p = 0; p < table.rows(); ++p) {
       for (Eigen::Index k = 0; k < table.cols(); ++k) {
-        result(p, k) = (table(p, k) + table(image_of_pair_[static_cast<std::size_t>(p)], mirror(k))) / 2.0F;
+        const auto sign = static_cast<float>(WeightPrior::sign_of_image(pairs_[static_cast<std::size_t>(p)].j));
+        result(p, k) = (table(p, k) + sign * table(image_of_pair_[static_cast<std::size_t>(p)], mirror(k))) / 2.0F;
       }
     }
     return result;
@@ -209,8 +245,8 @@ class Fit {
 
   double value_and_slope(const Eigen::VectorXd& x, Eigen::VectorXd& slope) const {
     const Matrix table = table_of(x);
-    double value = table_ridge * table.cast<double>().squaredNorm();
-    Matrix steep = static_cast<float>(2.0 * table_ridge) * table;
+    Matrix steep = 2.0F * ridge_.asDiagonal() * table;
+    double value = table.cwiseProduct(steep).cast<double>().sum() / 2.0;
     for (const Lesson& lesson : lessons_) {
       const Matrix added = lesson.products * table;
       // As WeightPrior: added where it is positive, with a slope that falls from one to zero where it is negative.
@@ -238,7 +274,8 @@ class Fit {
   std::vector<Lesson> lessons_;
   std::vector<Pair> pairs_;
   std::vector<Eigen::Index> image_of_pair_;
-  Matrix mask_;  ///< #pairs x 84: 1 where the table may have an entry
+  Eigen::VectorXf ridge_;  ///< by pair
+  Matrix mask_;            ///< #pairs x 84: 1 where the table may have an entry
 };
 
 }  // namespace
