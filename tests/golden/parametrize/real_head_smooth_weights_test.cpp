@@ -88,11 +88,11 @@ TEST(RealExpressions_SmoothWeights, AreCloserToAFaceByThePriorOfOthers) {
   EXPECT_LE(makehuman_alone.error, 0.242);
 
   const bench::Figures strange = figures_of(ict, WeightPrior(without_ict));
-  EXPECT_LE(strange.error, 0.127);
+  EXPECT_LE(strange.error, 0.124);
   EXPECT_LE(strange.roughness, 0.008);
   const bench::Figures other_shapes = figures_of(ict, WeightPrior(without_measured));
-  EXPECT_LE(other_shapes.error, 0.111);
-  EXPECT_LE(other_shapes.visible_error, 0.087);
+  EXPECT_LE(other_shapes.error, 0.108);
+  EXPECT_LE(other_shapes.visible_error, 0.08);
   EXPECT_LE(other_shapes.roughness, 0.008);
   const bench::Figures other_head = figures_of(makehuman, WeightPrior(without_makehuman));
   EXPECT_LE(other_head.error, 0.229);
@@ -110,8 +110,8 @@ TEST(RealExpressions_FittedWeights, AreCloserToAFaceByItsOtherShapes) {
   const bench::FittedShares fitted = bench::fitted_shares(measured, others, WeightPrior(without_measured));
 
   const bench::Figures figures = bench::measure(measured, fitted.shares);
-  EXPECT_LE(figures.error, 0.102);
-  EXPECT_LE(figures.visible_error, 0.08);
+  EXPECT_LE(figures.error, 0.099);
+  EXPECT_LE(figures.visible_error, 0.077);
   expect_smooth(figures);
   EXPECT_LT(fitted.fit.error(), 0.96 * fitted.fit.smooth_error());
 }
