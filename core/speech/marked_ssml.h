@@ -23,9 +23,9 @@ struct MarkedSsml {
 /// else stays as it is. Errors name the byte.
 Result<MarkedSsml> read_marked_ssml(std::string_view text);
 
-/// Cuts a document as first_part() cuts a text: after a sentence of at least `least_part_characters` that ends outside
-/// all elements but speak, p, prosody and emotion, which are closed in the first part and opened again in the rest.
-/// Without such a place, and of a document that does not nest, the first part is the whole.
+/// Cuts a document as first_part() cuts a text, outside all elements but speak, p, prosody and emotion, and after
+/// `long_part_characters` also in s, say-as, emphasis, voice and lang; they are closed in the first part and opened
+/// again in the rest. Without such a place, and of a document that does not nest, the first part is the whole.
 TextParts first_part_of_ssml(std::string_view text);
 
 /// The words and sentences of an utterance of the document, at their places in the text.

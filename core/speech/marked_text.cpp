@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 
+#include "core/speech/text_breaks.h"
 #include "core/speech/xml_tag.h"
 #include "core/tables/mpeg4.h"
 #include "core/types/printable.h"
@@ -44,7 +45,6 @@ constexpr std::array<Prosody, mpeg4::expressions.size()> prosodies = {
 
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'); }
 bool is_space(char c) { return c == ' ' || c == '\n' || c == '\t'; }
-bool ends_sentence(char c) { return c == '.' || c == '!' || c == '?' || c == '\n'; }
 
 /// "[joy 0.5]" or "[/joy]" at the beginning of a text.
 struct Tag {
@@ -114,20 +114,15 @@ class Reader {
  private:
   /// Whether the first part is long enough, and something ends here.
   [[nodiscard]] bool may_end_here() const {
-    constexpr std::size_t long_clause = 160, longest = 320;  // characters
-    const std::string_view before = text_.substr(0, at_);
-    if (characters_ < least_part_characters || before.empty()) return false;
+    if (characters_ < least_part_characters) return false;
     if (!said_since_end_) return !ends_.empty();
-    if (!is_space(before.back())) return false;
-    const bool is_clause =
-        before.size() > 1 && std::string_view(",;:").find(before[before.size() - 2]) != std::string_view::npos;
-    return characters_ >= longest || (characters_ >= long_clause && is_clause);
+    return may_break(text_.substr(0, at_), text_.substr(at_), characters_);
   }
   /// Spaces, signs, smileys and ends of spans go with the sentence before them.
   [[nodiscard]] bool belongs_to_what_was_said() const {
     const std::string_view rest = text_.substr(at_);
     const auto tag = tag_at(rest);
-    return is_space(rest[0]) || ends_sentence(rest[0]) || (tag && tag->closes) || rest.starts_with("</emotion") ||
+    return is_space(rest[0]) || sentence_sign(rest) > 0 || (tag && tag->closes) || rest.starts_with("</emotion") ||
            smiley_here() != nullptr;
   }
 
@@ -229,11 +224,11 @@ class Reader {
   }
 
   void take_character() {
-    const char c = text_[at_];
-    const std::size_t length = utf8_step(text_.substr(at_));
-    marked_.text.append(text_.substr(at_, length));
+    const std::string_view rest = text_.substr(at_);
+    const std::size_t length = utf8_step(rest), sign = sentence_sign(rest);
+    marked_.text.append(rest.substr(0, length));
     at_ += length;
-    if (!is_space(c) && !ends_sentence(c)) {
+    if (!is_space(rest[0]) && sign == 0) {
       if (!said_since_end_) {
         previous_sentence_ = ends_.empty() ? characters_ : sentence_;
         sentence_ = characters_;
@@ -241,8 +236,7 @@ class Reader {
       said_since_end_ = true;
     }
     ++characters_;
-    if (ends_sentence(c) && said_since_end_ &&
-        (at_ >= text_.size() || is_space(text_[at_]) || ends_sentence(text_[at_]) || text_[at_] == '[')) {
+    if (sign > 0 && said_since_end_ && ends_sentence(rest, sign)) {
       ends_.push_back(characters_);
       said_since_end_ = false;
       previous_sentence_ = sentence_;

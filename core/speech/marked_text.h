@@ -46,10 +46,10 @@ struct TextParts {
   std::string first;
   std::string rest;  ///< empty: the text was short
 };
-/// Cuts a text after its first sentences, or after a clause of a long one, so that the first part can be heard while
-/// the rest is made. Errors as those of read_marked_text(), of the first part.
+/// Cuts a text after its first sentences of at least `least_part_characters`, or where a long one may break
+/// (text_breaks.h), so that the first part can be heard while the rest is made. Errors as those of read_marked_text(),
+/// of the first part.
 Result<TextParts> first_part(std::string_view text);
-inline constexpr std::size_t least_part_characters = 40;
 
 /// How an expression changes the voice: factors of rate and pitch at full intensity; 1 for none.
 struct Prosody {

@@ -91,13 +91,27 @@ struct Step {
   std::vector<State> states;
 };
 
+/// Where the closure of a p, b or m ends. At steps of `mouth_step_ms` up to a step of it is not seen, so it is a step
+/// longer where the vowel after it has room: the second half is left to it, and two steps between two closures.
+double closure_end(std::span<const Segment> segments, std::size_t i) {
+  const double begin = segments[i].begin - closure_lead_ms;
+  const double least = std::max(segments[i].end - closure_lead_ms, begin + least_closure_ms);
+  double wanted = begin + least_closure_ms + mouth_step_ms;
+  if (i + 1 < segments.size() && segments[i + 1].is_vowel()) {
+    const Segment& vowel = segments[i + 1];
+    wanted = std::min(wanted, vowel.middle());
+    if (i + 2 < segments.size() && segments[i + 2].sound.kind == SoundKind::both_lips)
+      wanted = std::min(wanted, vowel.end - closure_lead_ms - 2.0 * mouth_step_ms);
+  }
+  return std::max(least, wanted);
+}
+
 bool is_closed(double ms, std::span<const Segment> segments) {
   const auto near = std::lower_bound(segments.begin(), segments.end(), ms - 2.0 * least_closure_ms,
                                      [](const Segment& segment, double time) { return segment.end < time; });
-  for (auto at = near; at != segments.end() && at->begin - closure_lead_ms <= ms; ++at) {
-    if (at->sound.kind != SoundKind::both_lips) continue;
-    const double begin = at->begin - closure_lead_ms;
-    if (ms <= std::max(at->end - closure_lead_ms, begin + least_closure_ms)) return true;
+  for (auto i = static_cast<std::size_t>(near - segments.begin()); i < segments.size(); ++i) {
+    if (segments[i].begin - closure_lead_ms > ms) break;
+    if (segments[i].sound.kind == SoundKind::both_lips && ms <= closure_end(segments, i)) return true;
   }
   return false;
 }

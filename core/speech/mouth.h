@@ -14,7 +14,7 @@ namespace semblante {
 /// has targets for jaw, lips, width, protrusion and tongue, and for each of them a dominance that falls exponentially
 /// with the time before and after the sound; the mouth at a time is the mean of the targets weighted by the dominances.
 /// So lips are round before an "u", through consonants that leave them free. p, b and m close completely, for at least
-/// `least_closure_ms`.
+/// `least_closure_ms`, less a step where the vowel after them is short.
 ///
 /// A frame has two visemes (FAP 1). The pairs over time are those whose mixtures follow the trajectory of the mouth
 /// best, in place and in movement: the shortest path through all pairs at steps of `mouth_step_ms`.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/speech/marked_ssml.h"
+#include "core/speech/text_breaks.h"
 #include "core/speech/xml_tag.h"
 #include "core/types/printable.h"
 
@@ -18,7 +19,11 @@ bool can_be_halved(std::string_view name) {
   constexpr std::array<std::string_view, 4> names = {"speak", "p", "prosody", "emotion"};
   return std::find(names.begin(), names.end(), name) != names.end();
 }
-bool ends_a_sentence(char c) { return c == '.' || c == '!' || c == '?'; }
+/// Elements whose halves are said as the whole if it is long: no date or word has hundreds of characters.
+bool can_be_halved_if_long(std::string_view name) {
+  constexpr std::array<std::string_view, 5> names = {"s", "say-as", "emphasis", "voice", "lang"};
+  return can_be_halved(name) || std::find(names.begin(), names.end(), name) != names.end();
+}
 bool is_xml_space(char c) { return xml_spaces.find(c) != std::string_view::npos; }
 
 /// Reads up to a place where the document can be cut.
@@ -48,13 +53,18 @@ class Cutter {
   };
 
   [[nodiscard]] bool may_end_here() const {
-    return characters_ >= least_part_characters && ended_ &&
-           std::all_of(open_.begin(), open_.end(), [](const Open& open) { return can_be_halved(open.name); });
+    if (characters_ < least_part_characters) return false;
+    if (ended_ && all_open(can_be_halved)) return true;
+    return may_break(text_.substr(0, at_), text_.substr(at_), characters_) &&
+           all_open(characters_ < long_part_characters ? can_be_halved : can_be_halved_if_long);
+  }
+  [[nodiscard]] bool all_open(bool (*may_be_cut)(std::string_view)) const {
+    return std::all_of(open_.begin(), open_.end(), [&](const Open& open) { return may_be_cut(open.name); });
   }
   /// Spaces, signs and ends of elements go with the sentence before them.
   [[nodiscard]] bool belongs_to_what_was_said() const {
     const std::string_view rest = text_.substr(at_);
-    return is_xml_space(rest[0]) || ends_a_sentence(rest[0]) || rest.starts_with("</") || rest.starts_with("<!--");
+    return is_xml_space(rest[0]) || sentence_sign(rest) > 0 || rest.starts_with("</") || rest.starts_with("<!--");
   }
   /// Between tags and spaces.
   [[nodiscard]] bool says_something_after() const {
@@ -76,15 +86,15 @@ class Cutter {
       return true;
     }
     if (rest.starts_with('<')) return take_tag(rest);
-    const char c = rest[0];
-    const std::size_t next = utf8_step(rest);
-    if (ends_a_sentence(c)) {
-      // Not "3.5": a space, a tag or another sign comes after it.
-      ended_ =
-          ended_ || next >= rest.size() || is_xml_space(rest[next]) || rest[next] == '<' || ends_a_sentence(rest[next]);
-    } else if (!is_xml_space(c)) {
+    // "&amp;" is one character, and is not cut.
+    constexpr std::size_t longest_entity = 10;
+    const std::size_t entity = rest[0] == '&' ? rest.substr(0, longest_entity).find(';') : std::string_view::npos;
+    const std::size_t next = entity != std::string_view::npos ? entity + 1 : utf8_step(rest);
+    // A line's end is a space here.
+    if (const std::size_t sign = is_xml_space(rest[0]) ? 0 : sentence_sign(rest))
+      ended_ = ended_ || ends_sentence(rest, sign);
+    else if (!is_xml_space(rest[0]))
       ended_ = false;
-    }
     ++characters_;
     at_ += next;
     return true;

@@ -16,10 +16,11 @@ namespace {
 
 void print_heads() {
   std::printf(
-      "closures at p b m (worst: %% of \"a\"), lag (ms) and correlation of opening and sound, of vowels with their\n"
+      "closures at p b m (worst: %% of \"a\"; the shortest, ms), lag (ms) and correlation of opening and sound, of "
+      "vowels with their\n"
       "loudness, mean opening of vowels (%% of \"a\")\n");
-  std::printf("%-14s %-6s %-6s %4s %7s %5s %6s %7s %8s\n", "head", "text", "", "pbm", "worst", "lag", "corr", "vowels",
-              "opening");
+  std::printf("%-14s %-6s %-6s %4s %7s %8s %5s %6s %7s %8s\n", "head", "text", "", "pbm", "worst", "shortest", "lag",
+              "corr", "vowels", "opening");
   for (const Speaker& speaker : speakers()) {
     for (const Pangram& pangram : pangrams()) {
       for (const auto& [name, rate, joy] :
@@ -30,9 +31,9 @@ void print_heads() {
         const Performance face = face_of(said, pangram.language, emotions);
         const Closures closed = closures(speaker, said, pangram.language, face);
         const Step step = in_step(speaker, said, pangram.language, face);
-        std::printf("%-14s %-6s %-6s %4d %7.1f %+5.0f %6.2f %7.2f %8.0f\n", speaker.face.head().name.c_str(),
-                    pangram.language, name, closed.count, 100.0 * closed.worst, step.lag, step.correlation, step.vowels,
-                    100.0 * step.vowel_opening);
+        std::printf("%-14s %-6s %-6s %4d %7.1f %8.0f %+5.0f %6.2f %7.2f %8.0f\n", speaker.face.head().name.c_str(),
+                    pangram.language, name, closed.count, 100.0 * closed.worst, closed.shortest, step.lag,
+                    step.correlation, step.vowels, 100.0 * step.vowel_opening);
       }
     }
   }

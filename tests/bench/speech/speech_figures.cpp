@@ -13,7 +13,8 @@
 namespace semblante::bench {
 namespace {
 
-constexpr double frame_ms = 40.0, step_ms = 20.0;
+constexpr double frame_ms = 40.0, step_ms = 20.0, phase_ms = 4.0;
+constexpr double closed_share = 0.1;  ///< of the opening of an "a": lips that look closed
 constexpr std::uint8_t viseme_a = 10, p_b_m = 1;
 constexpr Pangram texts[] = {
     {"pt-BR", "Um pequeno jabuti xereta viu dez cegonhas felizes. Papai bebe muito mamão."},
@@ -80,14 +81,25 @@ Closures closures(const Speaker& speaker, const Utterance& said, std::string_vie
   for (const Segment& segment : segments_of(said, sound_table(language), Loudness(said))) {
     if (segment.sound.kind != SoundKind::both_lips) continue;
     ++found.count;
-    double least = 1e9;
-    for (double ms = std::ceil((segment.begin - frame_ms) / frame_ms) * frame_ms; ms <= segment.end + frame_ms;
-         ms += frame_ms)
-      least = std::min(least, speaker.opening(face.frame_at(std::max(0.0, ms))));
-    const double share = (least - closed) / (open - closed);
-    if (found.count > 1 && share <= found.worst) continue;
-    found.worst = share;
-    found.worst_at = segment.begin;
+    std::vector<double> openings;
+    for (double ms = segment.begin - frame_ms; ms <= segment.end + frame_ms; ms += phase_ms)
+      openings.push_back((speaker.opening(face.frame_at(std::max(0.0, ms))) - closed) / (open - closed));
+    constexpr auto phases = static_cast<std::size_t>(frame_ms / phase_ms);
+    for (std::size_t phase = 0; phase < phases; ++phase) {
+      double least = 1e9;
+      for (std::size_t i = phase; i < openings.size(); i += phases) least = std::min(least, openings[i]);
+      if (least <= found.worst) continue;
+      found.worst = least;
+      found.worst_at = segment.begin;
+    }
+    double whole = 0.0;
+    for (std::size_t i = 0, from = 0; i < openings.size(); ++i) {
+      if (openings[i] > closed_share)
+        from = i + 1;
+      else
+        whole = std::max(whole, phase_ms * static_cast<double>(i - from));
+    }
+    found.shortest = found.count == 1 ? whole : std::min(found.shortest, whole);
   }
   return found;
 }

@@ -35,12 +35,13 @@ const std::vector<Speaker>& speakers();
 Utterance say(const char* voice_program, const Pangram& pangram, double rate = 1.0);
 Performance face_of(const Utterance& said, std::string_view language, const std::vector<EmotionSpan>& emotions = {});
 
-/// The lips at p, b and m: the least opening from a frame before the sound to a frame after it, as a share of the way
-/// from closed to an "a".
+/// The lips at p, b and m, from a frame of 25 a second before the sound to a frame after it. Openings are shares of the
+/// way from closed to an "a".
 struct Closures {
   int count = 0;
-  double worst = 0.0;
+  double worst = 0.0;     ///< the least opening that is seen of a sound, in the worst phase of the frames
   double worst_at = 0.0;  ///< ms
+  double shortest = 0.0;  ///< ms, of a sound, in which the lips are open by less than a tenth
 };
 Closures closures(const Speaker& speaker, const Utterance& said, std::string_view language, const Performance& face);
 

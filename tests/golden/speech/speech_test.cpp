@@ -21,6 +21,7 @@ TEST(SpeechOnHeads, EveryBilabialCloses_WithinAFrame_AtSpeedAndInJoy) {
         EXPECT_GE(closed.count, 6);
         EXPECT_LE(closed.worst, 0.1) << speaker.face.head().name << ", " << pangram.language << " at "
                                      << closed.worst_at << " ms";
+        EXPECT_GE(closed.shortest, 40.0) << speaker.face.head().name << ", " << pangram.language << ", rate " << rate;
         std::printf("%-14s %-6s rate %.1f %-4s %2d closures, the worst open by %.1f %% of \"a\"\n",
                     speaker.face.head().name.c_str(), pangram.language, rate, joy ? "joy" : "", closed.count,
                     100.0 * closed.worst);

@@ -99,6 +99,20 @@ TEST(SsmlParts, AreCutBetweenSentences_AndElementsGoOn) {
   EXPECT_EQ(b->said.emotions.at(0).expression, c->said.emotions.at(0).expression);
 }
 
+TEST(SsmlParts, WithoutSentences_AreCutWhereALongTextMayBreak_AlsoInElements) {
+  std::string words, entities;
+  for (int i = 0; i < 200; ++i) words += "abc ", entities += "&amp;";
+  const auto cut = first_part_of_ssml("<speak><s>" + words + "</s></speak>");
+  EXPECT_EQ(cut.first, "<speak><s>" + words.substr(0, 320) + "</s></speak>");
+  EXPECT_EQ(cut.rest, "<speak><s>" + words.substr(320) + "</s></speak>");
+  const auto spelled =
+      first_part_of_ssml("<speak><say-as interpret-as=\"characters\">" + std::string(700, 'x') + "</say-as></speak>");
+  EXPECT_EQ(spelled.rest, "<speak><say-as interpret-as=\"characters\">" + std::string(220, 'x') + "</say-as></speak>");
+  EXPECT_TRUE(
+      first_part_of_ssml("<speak>" + entities + entities + entities + "</speak>").rest.starts_with("<speak>&amp;"));
+  EXPECT_EQ(first_part_of_ssml("<speak><sub alias=\"x\">" + words + "</sub></speak>").rest, "");
+}
+
 TEST(SsmlParts, WhatCannotBeCut_IsWhole) {
   const std::string filler = "This is a sentence with more than forty characters";
   for (const std::string& text :

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/speech/text_breaks.h"
+
 namespace semblante {
 namespace {
 
@@ -95,7 +97,7 @@ TEST(MarkedText, FirstPart_IsTheFirstSentences_AndBothKeepTheirMarks) {
            "[joy 0.5]<emotion name='anger'>And</emotion> more.[/joy] End"));
   EXPECT_EQ(parts("[joy]This one is long enough to be heard alone.[/joy] End").first,
             "[joy]This one is long enough to be heard alone.[/joy] ");
-  // Without sentences: at a clause, then at any space, else not at all.
+  // Without sentences: at a clause, then at any space or sign, then anywhere, but not within a number or an entity.
   std::string clauses;
   for (int i = 0; i < 30; ++i) clauses += "seven words that end with, ";
   const auto [clause, others] = parts(clauses);
@@ -104,8 +106,32 @@ TEST(MarkedText, FirstPart_IsTheFirstSentences_AndBothKeepTheirMarks) {
   std::string words;
   for (int i = 0; i < 300; ++i) words += "\u00E1 ";
   EXPECT_EQ(parts(words).first.size(), 3U * 160U) << "320 characters";
-  EXPECT_EQ(parts(std::string(900, 'a')).second, "");
+  EXPECT_EQ(parts(std::string(900, 'a')).first.size(), most_part_characters);
+  std::string letters;
+  for (int i = 0; i < 400; ++i) letters += "a.";
+  EXPECT_EQ(parts(letters).first.size(), long_part_characters);
+  EXPECT_EQ(parts("Version 3.5 of www.example.com is, as far as anybody knows, not a long text").second, "");
+  EXPECT_EQ(parts(std::string(330, '1') + ".5 and more").first, std::string(330, '1') + ".5 ");
+  EXPECT_EQ(parts(std::string(160, 'a') + ", but then").second, "but then");
   EXPECT_FALSE(first_part("a[/joy]").ok());
+}
+
+TEST(MarkedText, FirstPart_EndsAtTheSignsOfOtherScripts) {
+  const auto first = [](const std::string& text) {
+    const auto cut = first_part(text);
+    return cut ? cut->first : cut.error().message;
+  };
+  const auto repeated = [](const char* text, int times) {
+    std::string all;
+    for (int i = 0; i < times; ++i) all += text;
+    return all;
+  };
+  const std::string chinese = repeated("今", 45) + "。", greek = repeated("α", 45) + "… ";
+  EXPECT_EQ(first(chinese + "今天"), chinese);
+  EXPECT_EQ(first(greek + "α"), greek);
+  const std::string clause = repeated("今", 170) + "，";
+  EXPECT_EQ(first(clause + repeated("今", 100)), clause);
+  EXPECT_EQ(first(repeated("ก", 1000)), repeated("ก", 480));
 }
 
 TEST(MarkedText, Prosody_FollowsTheShareOfTheText) {

@@ -65,6 +65,31 @@ TEST(Mouth, BilabialBetweenOpenVowels_ClosesWholly_ForEveryPhaseOfAFrame_AlsoAtS
   }
 }
 
+/// ms, the longest time around a sound in which the lips are whole.
+double whole_ms(const Performance& face, double begin, double end) {
+  double longest = 0.0;
+  for (double ms = begin, from = begin; ms <= end; ms += 1.0) {
+    if (share_of(face.frame_at(ms), p_b_m) < 1.0)
+      from = ms + 1.0;
+    else
+      longest = std::max(longest, ms - from);
+  }
+  return longest;
+}
+
+TEST(Mouth, BilabialIsWhole_ForLongerThanAFrame_WhereverItBegins_AlsoInJoy) {
+  for (const double length : {35.0, 60.0, 110.0})
+    for (double begin = 500.0; begin < 520.0; begin += 1.0) {
+      const auto said = utterance({{300, "a"}, {begin, "b"}, {begin + length, "a"}, {begin + length + 100, ""}}, 1200);
+      for (const bool joy : {false, true}) {
+        std::vector<EmotionSpan> emotions;
+        if (joy) emotions.push_back({1, 1.0, {0, 3}});
+        const auto face = performance(said, "en", emotions);
+        EXPECT_GE(whole_ms(face, begin - 40.0, begin + length + 40.0), 58.0) << length << " ms from " << begin;
+      }
+    }
+}
+
 TEST(Mouth, ShortVowelBetweenBilabials_Opens_AndTheLipsStillClose) {
   for (const double length : {55.0, 65.0, 80.0}) {
     const double end = 500 + length;
