@@ -12,6 +12,7 @@
 #include <sys/resource.h>
 
 #include "server/jobs/isolation.h"
+#include "server/voice/espeak/bounded_words.h"
 #include "server/voice/espeak/dictionaries.h"
 #include "server/voice/espeak/phoneme_trace.h"
 #include "server/voice/program.h"
@@ -175,8 +176,8 @@ int run() {
 
   say(header_line(name, static_cast<std::uint32_t>(rate)));
   const unsigned flags = espeakCHARS_UTF8 | espeakENDPAUSE | (request->ssml ? espeakSSML : 0U);
-  const auto code =
-      espeak_Synth(request->text.c_str(), request->text.size() + 1, 0, POS_CHARACTER, 0, flags, nullptr, nullptr);
+  const std::string said = with_bounded_words(request->text, request->ssml);
+  const auto code = espeak_Synth(said.c_str(), said.size() + 1, 0, POS_CHARACTER, 0, flags, nullptr, nullptr);
   if (speaking.too_long) return refuse("the sound is longer than " + std::to_string(int(max_seconds)) + " s", "text");
   if (code != EE_OK || speaking.broken) return refuse("espeak-ng failed with code " + std::to_string(code));
   return finish_answer();

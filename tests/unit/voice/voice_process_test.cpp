@@ -183,6 +183,23 @@ TEST(VoiceEspeak, CharactersThatAreNoWords_AreTaken) {
 }
 
 // The library opens the dictionary of another alphabet or language at its first word, and crashes without.
+TEST(VoiceEspeak, WordsThatOverflowTheLibrary_AreSpoken) {
+  for (const char* const piece : {"a.", "\u00E9.", "s'", "s\u2019", "a. "}) {
+    std::string text;
+    for (int i = 0; i < 300; ++i) text += piece;
+    for (const bool ssml : {false, true}) {
+      auto request = asking((ssml ? "<speak>" : "") + text + (ssml ? "</speak>" : ""), "en");
+      request.ssml = ssml;
+      const auto got = speak(espeak, request);
+      ASSERT_TRUE(got.ok()) << piece << ": " << got.error().message;
+      EXPECT_GT(got->duration, 2'000.0) << piece;
+    }
+  }
+  const auto short_one = speak(espeak, asking("Dr. A.B.C. isn't here", "en"));
+  ASSERT_TRUE(short_one.ok());
+  EXPECT_EQ(short_one->words.back().range.first, 17U);
+}
+
 TEST(VoiceEspeak, WordsOfOtherAlphabetsAndLanguages_AreSpokenByTheirDictionaries) {
   for (const char* const text :
        {"Ol\u00E1 \u041F\u0440\u0438\u0432\u0435\u0442", "\u0645\u0631\u062D\u0628\u0627", "\u05E9\u05DC\u05D5\u05DD",
