@@ -38,6 +38,7 @@ import type {
   Voices,
   VersionInfo,
 } from './types.ts';
+import { Turns } from './turns.ts';
 import { upload } from './upload.ts';
 
 const segment = encodeURIComponent;
@@ -45,6 +46,9 @@ const segment = encodeURIComponent;
 /** One method per REST operation. Each throws ApiError with the server's problem document. */
 export class Api {
   constructor(readonly base = '') {}
+
+  /** Of requests that have a voice speak on the server. */
+  private readonly voiceTurns = new Turns();
 
   /** All models of all pages, in the server's order: newest first. */
   async listModels(): Promise<Model[]> {
@@ -111,7 +115,7 @@ export class Api {
 
   /** Has a text spoken; resolves when sound and face are made. */
   async createSpeech(request: SpeechRequest): Promise<Speech> {
-    return (await requestJson<Speech>(`${this.base}/v1/speeches`, { method: 'POST', json: request })).value;
+    return (await this.voiceTurns.take(() => requestJson<Speech>(`${this.base}/v1/speeches`, { method: 'POST', json: request }))).value;
   }
 
   /** Has a recording of a text, in a sound file, said by a face; resolves when the face is made. */
@@ -119,11 +123,11 @@ export class Api {
     const form = new FormData();
     form.set('options', JSON.stringify(options));
     form.set('audio', sound);
-    return (await requestJson<Speech>(`${this.base}/v1/speeches`, { method: 'POST', body: form })).value;
+    return (await this.voiceTurns.take(() => requestJson<Speech>(`${this.base}/v1/speeches`, { method: 'POST', body: form }))).value;
   }
 
   async voices(): Promise<VoiceName[]> {
-    return (await requestJson<Voices>(`${this.base}/v1/voices`)).value.voices;
+    return (await this.voiceTurns.take(() => requestJson<Voices>(`${this.base}/v1/voices`))).value.voices;
   }
 
   speechUrl(id: string, file: 'audio' | 'captions' | 'performance' | 'timeline'): string {
@@ -243,7 +247,8 @@ export class Api {
 
   /** The face of the stream says a text from now on. */
   async speakIntoStream(stream: string, speech: StreamSpeech): Promise<Playing> {
-    return (await requestJson<Playing>(`${this.base}/v1/streams/${segment(stream)}/speech`, { method: 'POST', json: speech })).value;
+    const path = `${this.base}/v1/streams/${segment(stream)}/speech`;
+    return (await this.voiceTurns.take(() => requestJson<Playing>(path, { method: 'POST', json: speech }))).value;
   }
 
   /** Stops a performance, .fap file or recording; the face returns to neutral. */

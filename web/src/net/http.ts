@@ -19,6 +19,11 @@ export interface RequestOptions {
   keepalive?: boolean;
 }
 
+/** Of Retry-After as this server writes it; a date is none. */
+function secondsOf(header: string | null): number | null {
+  return header !== null && /^\d{1,3}$/.test(header) ? Number(header) : null;
+}
+
 async function send(path: string, options: RequestOptions): Promise<Response> {
   const headers = new Headers(options.headers);
   const init: RequestInit = { method: options.method ?? 'GET', headers };
@@ -45,6 +50,7 @@ async function send(path: string, options: RequestOptions): Promise<Response> {
     const body = await response.text().catch(() => '');
     throw new ApiError(
       problemFrom(response.status, response.statusText, response.headers.get('Content-Type') ?? '', body),
+      secondsOf(response.headers.get('Retry-After')),
     );
   }
   return response;

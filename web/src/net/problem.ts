@@ -8,9 +8,12 @@ export interface FieldProblem {
   detail: string;
 }
 
-/** A failed request. `problem.status` is 0 when there was no response. */
+/** A failed request. `problem.status` is 0 when there was no response; `retryAfter`: seconds, if the server says so. */
 export class ApiError extends Error {
-  constructor(readonly problem: Problem) {
+  constructor(
+    readonly problem: Problem,
+    readonly retryAfter: number | null = null,
+  ) {
     super(problem.detail ?? problem.title);
     this.name = 'ApiError';
   }

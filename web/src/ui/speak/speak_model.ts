@@ -37,8 +37,6 @@ export class SpeakModel {
   private take: Take | null = null;
   /** The whole of the text whose first sentences `take` is. */
   private whole: Promise<Take> | null = null;
-  /** Settles when the server makes no whole for this page any more: one that is not wanted ends by itself. */
-  private idle: Promise<unknown> = Promise.resolve();
   private newest = 0;
 
   /** `load` gives the library that evaluates performances. */
@@ -83,7 +81,6 @@ export class SpeakModel {
     this.forget();
     this.state.set({ kind: 'making' });
     try {
-      await this.idle; // a small server lets one voice speak at a time
       const take = await this.make(create, (speech) => {
         // The sound is on its way while its face is fetched.
         if (number === this.newest) this.sound.src = this.api.speechUrl(speech.id, 'audio');
@@ -149,7 +146,7 @@ export class SpeakModel {
   private makeWhole(create: () => Promise<Speech>, number: number): void {
     const whole = this.make(create);
     this.whole = whole;
-    this.idle = whole.then(
+    void whole.then(
       (take) => {
         if (number === this.newest && this.whole === whole)
           this.state.set({ kind: 'ready', speech: take.speech, timeline: take.timeline });
