@@ -3,10 +3,8 @@
 
 #include <algorithm>
 #include <csignal>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <thread>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,31 +12,17 @@
 #include "protocol/cpp/json_codec.h"
 #include "protocol/cpp/opus_packet.h"
 #include "tests/integration/server/model_flow.h"
+#include "tests/integration/server/troubled_voice.h"
 #include "tests/support/wait.h"
 
 namespace semblante::test {
 namespace {
 
-namespace fs = std::filesystem;
 using nlohmann::json;
 using ::testing::HasSubstr;
 
 const Fields json_type = {{"Content-Type", "application/json"}};
-constexpr const char* troubled_voice = SEMBLANTE_SOURCE_DIR "/tests/integration/server/troubled_voice.py";
 const std::string first = "A sentence that is long enough to be a part. ";
-
-/// Of the server's, with the voice's program in their command line.
-std::size_t voices_of(pid_t server) {
-  std::size_t count = 0;
-  for (const auto& entry : fs::directory_iterator("/proc")) {
-    std::ifstream stat(entry.path() / "stat"), command(entry.path() / "cmdline");
-    std::string pid, name, state, parent;
-    stat >> pid >> name >> state >> parent;
-    const std::string line{std::istreambuf_iterator<char>(command), {}};
-    count += parent == std::to_string(server) && line.find(troubled_voice) != std::string::npos ? 1 : 0;
-  }
-  return count;
-}
 
 /// What a subscriber with sound gets.
 struct Heard {
@@ -59,6 +43,12 @@ struct Heard {
     return sound.empty() ? 0.0
                          : static_cast<double>(sound.back().media_time - sound.front().media_time) +
                                opus_packet_ms(sound.back().packet).value_or(0.0);
+  }
+  /// All packets together.
+  [[nodiscard]] double packets_ms() const {
+    double sum = 0.0;
+    for (const auto& packet : sound) sum += opus_packet_ms(packet.packet).value_or(0.0);
+    return sum;
   }
   /// Whether the frames but the last, which is the end, are those of one clock, 25 a second. A busy machine leaves some
   /// out.
@@ -95,8 +85,12 @@ class LiveSpeech : public ::testing::Test {
   /// Until `enough`, or the end of the stream.
   template <class Enough>
   void listen(Enough enough) {
+    listen_to(*listener_, enough);
+  }
+  template <class Enough>
+  void listen_to(WebSocket& listener, Enough enough) {
     while (!enough()) {
-      const auto text = listener_->receive();
+      const auto text = listener.receive();
       ASSERT_TRUE(text);
       const auto message = decode_json(*text);
       ASSERT_TRUE(message) << *text;
@@ -165,9 +159,7 @@ TEST_F(LiveSpeech, LateSentence_IsWaitedFor_AndWhole) {
   const auto gaps = heard_.gaps();
   ASSERT_GE(gaps.size(), 1U);
   EXPECT_GT(*std::max_element(gaps.begin(), gaps.end()), 1000.0) << "the voice was late";
-  double sound = 0.0;
-  for (const auto& packet : heard_.sound) sound += opus_packet_ms(packet.packet).value_or(0.0);
-  EXPECT_GT(sound, 10 * 90.0);
+  EXPECT_GT(heard_.packets_ms(), 10 * 90.0);
 }
 
 TEST_F(LiveSpeech, ClientWithAVoice_GetsTheSentencesOfEachPart_AtTheTimesOfTheirSound) {
@@ -294,6 +286,34 @@ TEST_F(LiveSpeechOfEspeak, IsHeardBeforeTheWholeIsMade_AndEndsWhenItIsStopped) {
   EXPECT_EQ(ask("GET", playback).status, 404);
   listen_to_the_end();
   EXPECT_LT(heard_.sound.back().media_time - now, 30'000U) << "of minutes";
+}
+
+TEST_F(LiveSpeechOfEspeak, PartsJoin_WithoutGapOrOverlap_AsInTheWhole) {
+  const std::string text =
+      "The first sentence of four is said while the second is made. Papa bought a blue piano for the baby's room. The "
+      "third one is here to be joined on both of its sides, too. And this is the last of them.";
+  const auto stored = json_of(ask("POST", "/v1/speeches", json{{"text", text}, {"language", "en"}}.dump()));
+  ASSERT_EQ(ask("POST", "/v1/streams", R"({"name":"whole","batch_interval":0})").status, 201);
+  WebSocket other(server_->port(), "/v1/streams/whole", "semblante.v1.json");
+  other.send_text(R"({"type":"hello","version":1,"sound":true})");
+  ASSERT_TRUE(other.receive());
+  ASSERT_EQ(ask("POST", "/v1/streams/whole/speech", json{{"speech", stored["id"]}}.dump()).status, 202);
+  ASSERT_EQ(say(text).status, 202);
+  EXPECT_TRUE(testing::eventually([&] { return stream()["playing"].value("complete", true); }));
+  const auto playing = stream()["playing"];
+  ASSERT_FALSE(playing.is_null());
+  EXPECT_NEAR(playing["duration"].get<double>(), stored["duration"].get<double>(), 4 * 10.0) << "10 ms for each part";
+  listen_to_the_end();
+  const Heard parts = std::exchange(heard_, {});
+  listener_ = nullptr;
+  EXPECT_TRUE(testing::eventually([&] { return json_of(ask("GET", "/v1/streams/whole"))["playing"].is_null(); }));
+  ASSERT_EQ(ask("DELETE", "/v1/streams/whole").status, 204);
+  listen_to(other, [] { return false; });
+  for (const double gap : parts.gaps()) EXPECT_GE(gap, 0.0) << "an overlap";
+  // The end of a part comes in shorter packets; by their durations as much is heard as of the whole.
+  EXPECT_NEAR(parts.packets_ms(), heard_.packets_ms(), 4 * 60.0);
+  EXPECT_NEAR(parts.sound_ms(), heard_.sound_ms(), 4 * 20.0);
+  EXPECT_TRUE(parts.one_clock());
 }
 
 TEST_F(LiveSpeechOfEspeak, ReaderWhoReadsNothing_LearnsAfterwardsThatTheSpeechWasStopped) {
