@@ -3,6 +3,7 @@ import { mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, statSync, sy
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { promisify } from 'node:util';
+import type { Page } from 'playwright-core';
 import { build, createServer } from 'vite';
 import { afterAll, beforeAll, expect, test } from 'vitest';
 import { buildDir, root } from './support/paths.ts';
@@ -29,7 +30,7 @@ beforeAll(async () => {
   mkdirSync(unpacked, { recursive: true });
   await run('tar', ['-xzf', join(project, packed.trim().split('\n').at(-1)!), '--strip-components=1', '-C', unpacked]);
   writeFileSync(join(project, 'package.json'), '{"type":"module","private":true}');
-  server = await startServer({ pages: project });
+  server = await startServer({ pages: project, voice: join(buildDir, 'bin/semblante-voice-espeak') });
 });
 afterAll(async () => {
   await server?.stop();
@@ -150,8 +151,8 @@ console.log(JSON.stringify([take.frames.length, take.frames[5].state.viseme, jaw
   expect(viseme.select1).toBeGreaterThan(0);
 });
 
-/** Opens a page of the project, which the real server serves, and waits until its face moves. */
-async function moves(path: string, origin = server.url): Promise<void> {
+/** Opens a page of the project, which the real server serves, waits until its face moves, and does more with it. */
+async function moves(path: string, origin = server.url, more?: (page: Page) => Promise<void>): Promise<void> {
   const browser = await launch();
   try {
     const page = await browser.newPage();
@@ -163,6 +164,7 @@ async function moves(path: string, origin = server.url): Promise<void> {
     });
     await page.goto(origin + path, { timeout: patience });
     await page.waitForFunction(() => (document.querySelector('semblante-face') as { state?: string } | null)?.state === 'playing');
+    await more?.(page);
     expect(errors).toEqual([]);
   } finally {
     await browser.close();
@@ -176,6 +178,25 @@ test('Package_BarePage_ShowsAMovingFace', async () => {
   expect(page).toContain('http://127.0.0.1:8080');
   writeFileSync(example, page.replace('http://127.0.0.1:8080', server.url));
   await moves('/node_modules/semblante/example.html');
+});
+
+test('Package_Greeting_IsSaidInBothLanguages', async () => {
+  const greeting = join(unpacked, 'greeting.html');
+  writeFileSync(greeting, readFileSync(greeting, 'utf8').replace('http://127.0.0.1:8080', server.url));
+  const playing = async (): Promise<string | undefined> => {
+    const stream = (await (await fetch(`${server.url}/v1/streams/demo`)).json()) as { playing: { id: string } | null };
+    return stream.playing?.id;
+  };
+  await moves('/node_modules/semblante/greeting.html', server.url, async (page) => {
+    const said = new Set([await playing(), undefined]);
+    for (const name of ['Hello!', 'Olá!']) {
+      await page.getByRole('button', { name }).click();
+      let now: string | undefined;
+      await expect.poll(async () => said.has((now = await playing())), { timeout: patience }).toBe(false);
+      said.add(now);
+      expect(await page.getByRole('status').textContent()).toBe('');
+    }
+  });
 });
 
 test('Package_BuiltByVite_ShowsAMovingFace', async () => {

@@ -3,8 +3,9 @@
 
     first_sound.py PROGRAM [TIMES]     PROGRAM: build/bin/semblante, with its voice beside it
 
-From the request POST .../speech to the first Opus packet at a subscriber on this machine, for texts of several lengths. Beside it the
-same text as SSML, and as one element s, which a voice speaks whole before anything plays: the baseline. The median and the worst of TIMES (default 5)."""
+From the request to the first Opus packet at a subscriber on this machine, for texts of several lengths. Beside it the same text as SSML, and
+as a speech that is made whole before the stream plays it: the baseline. Then texts without sentences, and hostile ones. The median and
+the worst of TIMES (default 5)."""
 
 import contextlib
 import statistics
@@ -15,7 +16,19 @@ from xml.sax.saxutils import escape
 import minute
 
 LENGTHS = (1, 4, 12)  # times the text
-FORMS = ("{}", "<speak>{}</speak>", "<speak><s>{}</s></speak>")
+WAYS = ("text", "SSML", "whole first")
+HOSTILE = {
+    "one word of letters": "a" * 19000,
+    "letters and periods": "a.b.c.d.e.f.g." * 1400,
+    "words without periods": "banana casa " * 1600,
+    "digits": "1234567890" * 1900,
+    "periods": "." * 19000 + "a",
+    "smileys": ":) " * 6000 + "hello",
+    "emoji": "\U0001F600" * 4700 + "a",
+    "spans and signs": "[joy 0.5]a[/joy](b),c;d:e!f?" * 680,
+    "SSML, one say-as": '<speak><say-as interpret-as="characters">' + "x7" * 9000 + "</say-as></speak>",
+    "SSML, a mark at each letter": "<speak>" + 'a<mark name="a"/>' * 1100 + "</speak>",
+}
 
 
 class Ear(minute.Subscriber):
@@ -29,22 +42,34 @@ class Ear(minute.Subscriber):
         self.first = self.first or time.monotonic()
 
 
-def wait(port, text, form):
-    """Seconds to the first packet, ms of sound."""
+def said(text, way):
+    is_text = way != "SSML" or text.startswith("<speak>")
+    return {"text": text if is_text else f"<speak>{escape(text)}</speak>", "ssml": way == "SSML", "language": "en"}
+
+
+def wait(port, text, way):
+    """Seconds to the first packet, ms of sound that have been made by then."""
     assert minute.ask(port, "POST", "/v1/streams", {"name": "talk"})[0] == 201
     ear = Ear(port)
     ear.start()
     time.sleep(0.2)
     begun = time.monotonic()
-    status, playing = minute.ask(port, "POST", "/v1/streams/talk/speech", {"text": text if form == "{}" else form.format(escape(text)), "ssml": form != "{}", "language": "en"})
+    wish = said(text, way)
+    if way == "whole first":
+        status, speech = minute.ask(port, "POST", "/v1/speeches", wish)
+        assert status == 201, speech
+        wish = {"speech": speech["id"]}
+    status, playing = minute.ask(port, "POST", "/v1/streams/talk/speech", wish)
     assert status == 202, playing
     while ear.first is None:
         assert time.monotonic() < begun + 60
         time.sleep(0.001)
-    while not (play := minute.ask(port, "GET", "/v1/streams/talk")[1]["playing"])["complete"]:
-        time.sleep(0.05)
     assert minute.ask(port, "DELETE", "/v1/streams/talk")[0] == 204
-    return ear.first - begun, play["duration"]
+    return ear.first - begun, playing["duration"]
+
+
+def figures(waits):
+    return f"{1000 * statistics.median(waits):.0f} ms, {1000 * max(waits):.0f} ms"
 
 
 def main(program, times):
@@ -53,11 +78,14 @@ def main(program, times):
         print("| text | sound | text: median, worst | SSML: median, worst | whole first: median, worst | whole to SSML |\n|---|---|---|---|---|---|")
         for length in LENGTHS:
             long_text = " ".join([text] * length)
-            rounds = [[wait(server.port, long_text, form) for form in FORMS] for _ in range(times)]
-            ways = [[1000 * one[way][0] for one in rounds] for way in range(len(FORMS))]
+            rounds = [[wait(server.port, long_text, way) for way in WAYS] for _ in range(times)]
+            ways = [[one[way][0] for one in rounds] for way in range(len(WAYS))]
             ratio = statistics.median(ways[2]) / statistics.median(ways[1])
-            figures = " | ".join(f"{statistics.median(way):.0f} ms, {max(way):.0f} ms" for way in ways)
-            print(f"| {len(long_text)} bytes | {rounds[0][0][1] / 1000:.0f} s | {figures} | {ratio:.1f} |", flush=True)
+            print(f"| {len(long_text)} bytes | {rounds[0][2][1] / 1000:.0f} s | {' | '.join(map(figures, ways))} | {ratio:.1f} |", flush=True)
+        print("\n| hostile text | median, worst |\n|---|---|")
+        for name, hostile in HOSTILE.items():
+            way = "SSML" if hostile.startswith("<speak>") else "text"
+            print(f"| {name} | {figures([wait(server.port, hostile, way)[0] for _ in range(times)])} |", flush=True)
 
 
 if __name__ == "__main__":

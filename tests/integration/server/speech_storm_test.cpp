@@ -30,7 +30,7 @@ const std::string sentence = "A sentence that is long enough to be a part. ";
 
 class Storm {
  public:
-  Storm() : server_(folder_.path() / "data", {"--voice-program", troubled_voice}) {
+  Storm() : server_(folder_.path() / "data", {"--voice-program", troubled_voice, "--threads", "8"}) {
     for (const auto& stream : streams_) open(stream);
     const auto stored = ask("POST", "/v1/speeches", {{"text", sentence + sentence}, {"language", "en"}});
     EXPECT_EQ(stored.status, 201) << stored.body;
