@@ -23,7 +23,7 @@ import {
   tongueLayout,
   trianglesLayout,
 } from './generated/layouts.ts';
-import type { Runtime } from './runtime.ts';
+import { freeBlocks, type Runtime } from './runtime.ts';
 
 // How many floats a struct holds. Of the rig: those before its first pointer after them.
 const floatBytes = 4;
@@ -211,11 +211,7 @@ export class Kernel {
       if (prepared) runtime.free(prepared.memory);
       throw error;
     }
-    const preparedMemory = prepared?.memory ?? 0;
-    this.release = runtime.owns(this, () => {
-      runtime.free(base);
-      runtime.free(preparedMemory);
-    });
+    this.release = runtime.owns(this, freeBlocks, { runtime, blocks: [base, prepared?.memory ?? 0] });
 
     this.at = {
       frame: base + frame,

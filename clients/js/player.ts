@@ -234,12 +234,7 @@ export class Player {
     const statistics = runtime.struct(playerStatisticsLayout.bytes);
     const laid = runtime.alloc(frameLayout.bytes);
     this.memory = { runtime, player, moment, statistics, laid };
-    this.release = runtime.owns(this, () => {
-      functions.semblante_player_destroy(player);
-      runtime.free(moment);
-      runtime.free(statistics);
-      runtime.free(laid);
-    });
+    this.release = runtime.owns(this, releasePlayer, this.memory);
   }
 
   private forgetPoses(): void {
@@ -281,6 +276,11 @@ export class Player {
     this.shownT = t;
     return true;
   }
+}
+
+function releasePlayer({ runtime, player, moment, statistics, laid }: PlayerMemory): void {
+  runtime.functions.semblante_player_destroy(player);
+  for (const at of [moment, statistics, laid]) runtime.free(at);
 }
 
 /** One of the four frames of the moment. */

@@ -71,7 +71,7 @@ export class Runtime<Of extends Memory = Functions> {
   private seen: ArrayBufferLike | null = null;
   private wholeBytes = new Uint8Array();
   private wholeView = new DataView(new ArrayBuffer(0));
-  private readonly released = new FinalizationRegistry<() => void>((release) => release());
+  private readonly released = new FinalizationRegistry<Owned>(({ release, held }) => release(held));
 
   private static one: Runtime | null = null;
   private static loading: Promise<Runtime> | null = null;
@@ -208,18 +208,34 @@ export class Runtime<Of extends Memory = Functions> {
   }
 
   /**
-   * Calls `release` when `owner` is forgotten without having been disposed of. `release` must not refer to `owner`. Returns
-   * the function that does it now, once.
+   * Calls `release` with `held` when `owner` is forgotten without having been disposed of. Returns the function that does it now,
+   * once. Neither may refer to `owner`, which would never be forgotten then. So `release` is a function of a module: a closure of
+   * a method keeps whatever another closure of that method uses, `this` too.
    */
-  owns(owner: object, release: () => void): () => void {
+  owns<Held>(owner: object, release: (held: Held) => void, held: Held): () => void {
     const token = {};
-    this.released.register(owner, release, token);
+    this.released.register(owner, { release, held }, token);
     let done = false;
     return () => {
       if (done) return;
       done = true;
       this.released.unregister(token);
-      release();
+      release(held);
     };
   }
+}
+
+interface Owned {
+  release(held: unknown): void;
+  held: unknown;
+}
+
+/** Blocks of the memory, for `owns`. */
+export interface Blocks {
+  readonly runtime: Pick<Memory, 'free'>;
+  readonly blocks: readonly number[];
+}
+
+export function freeBlocks({ runtime, blocks }: Blocks): void {
+  for (const at of blocks) runtime.free(at);
 }

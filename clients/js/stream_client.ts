@@ -315,7 +315,7 @@ export class StreamClient extends Emitter<StreamEvents> {
       view.setUint32(at + of.text, text ? 1 : 0, true);
     });
     this.memory = memory;
-    this.release = runtime.owns(this, () => memory.release());
+    this.release = runtime.owns(this, releaseStream, memory);
     for (const use of this.whenMade.splice(0)) use(memory);
     return memory;
   }
@@ -545,4 +545,8 @@ export class StreamClient extends Emitter<StreamEvents> {
     if (isKeyframe) this.emit('keyframe', { type: 'keyframe', sequence, media_time: mediaTime, state: frames[0]!.state });
     else this.emit('frames', { type: 'frames', sequence, media_time: mediaTime, frames });
   }
+}
+
+function releaseStream(memory: StreamMemory): void {
+  memory.release();
 }

@@ -2,6 +2,7 @@ import { neutralFrame, type FaceFrame } from '../../../protocol/ts/face_frame.ts
 import { standardQuantizers, type QuantizerSteps } from '../../../protocol/ts/quantizers.ts';
 import { readFrame, writeFrame } from '../frames.ts';
 import { frameLayout } from '../generated/layouts.ts';
+import { freeBlocks } from '../runtime.ts';
 import { type Library } from './library.ts';
 
 /** All values in order, or some by name (the others are 0). */
@@ -54,10 +55,7 @@ export class Bridges {
     };
     const frame = (this.frame = library.alloc(frameLayout.bytes));
     const values = (this.values = library.alloc(4 * this.arkitNames.length));
-    this.release = library.owns(this, () => {
-      library.free(frame);
-      library.free(values);
-    });
+    this.release = library.owns(this, freeBlocks, { runtime: library, blocks: [frame, values] });
   }
 
   /** A frame of ARKit's coefficients; names also as Live Link Face writes them ("JawOpen"). */

@@ -33,10 +33,7 @@ export class Performance {
       library.made((made, error) => functions.semblante_performance_create(at, size, made, error), refusedBytes),
     ));
     const frame = (this.frame = library.alloc(frameLayout.bytes));
-    this.release = library.owns(this, () => {
-      functions.semblante_performance_destroy(handle);
-      library.free(frame);
-    });
+    this.release = library.owns(this, releasePerformance, { library, handle, frame });
     this.name = library.text(functions.semblante_performance_name(handle));
     this.duration = functions.semblante_performance_duration(handle);
   }
@@ -70,4 +67,9 @@ export class Performance {
     if (this.library.functions.semblante_performance_frame_at(this.handle, ms, idleMs, this.frame) !== 0)
       throw new RangeError(`a performance has no face at ${ms} ms, idle life at ${idleMs} ms`);
   }
+}
+
+function releasePerformance({ library, handle, frame }: { library: Library; handle: number; frame: number }): void {
+  library.functions.semblante_performance_destroy(handle);
+  library.free(frame);
 }

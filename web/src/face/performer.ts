@@ -92,7 +92,10 @@ export class Performer {
     return true;
   }
 
+  /** Frees the memory of player and kernel; the performer must not be used afterwards. */
   dispose(): void {
     this.stopListening?.();
+    this.player.dispose();
+    this.kernel.dispose();
   }
 }

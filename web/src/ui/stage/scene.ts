@@ -305,7 +305,6 @@ export class SceneView {
     const key = previewKeyOf(model);
     const another = key !== this.framed;
     if (preview && preview !== this.preview) this.setPreview(preview, key);
-    this.performer.value?.dispose();
     this.influence = null;
     this.units = null;
     this.disposeFace();
@@ -318,9 +317,9 @@ export class SceneView {
       face.loaded.kernel.setJawTakesLip(this.lipFollows);
       const performer = new Performer(face.loaded.kernel, this.clock);
       this.pose(face.view, performer);
-      this.performer.set(performer);
+      this.setPerformer(performer);
     } else {
-      this.performer.set(null);
+      this.setPerformer(null);
     }
     this.wireframe = this.wire;
     if (another && preview) {
@@ -364,6 +363,13 @@ export class SceneView {
     this.stage.dispose();
   }
 
+  /** The one before is freed when nobody has it any more. */
+  private setPerformer(performer: Performer | null): void {
+    const before = this.performer.value;
+    this.performer.set(performer);
+    before?.dispose();
+  }
+
   private disposeFace(): void {
     if (!this.face) return;
     this.face.dispose();
@@ -380,8 +386,7 @@ export class SceneView {
     this.face = null;
     this.rig = null;
     this.packageBytes.set(0);
-    this.performer.value?.dispose();
-    this.performer.set(null);
+    this.setPerformer(null);
     this.show(this.wanted);
   }
 }
