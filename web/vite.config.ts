@@ -58,7 +58,11 @@ export default defineConfig({
     assetsInlineLimit: 0,
     rollupOptions: {
       input: { index: here('index.html'), listen_worklet: here('../clients/js/listen/worklet.ts') },
-      output: { entryFileNames: ({ name }) => (name === 'index' ? 'assets/[name]-[hash].js' : '[name].js') },
+      output: {
+        entryFileNames: ({ name }) => (name === 'index' ? 'assets/[name]-[hash].js' : '[name].js'),
+        // A browser keeps three.js when the studio changes, and a profile tells the one from the other.
+        manualChunks: (id) => (id.includes('node_modules/three/') ? 'three' : undefined),
+      },
     },
   },
   server: {

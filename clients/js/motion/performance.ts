@@ -13,6 +13,12 @@ export interface PerformedFace {
   faps: Float64Array;
 }
 
+/** What `Performance.at` writes into. */
+export function restingFace(): PerformedFace {
+  const { viseme, expression } = neutralFrame();
+  return { viseme, expression, faps: new Float64Array(lastLowLevelFap + 1) };
+}
+
 /**
  * A performance document (protocol/SPEC.md, section 9) played locally: the face as a function of time, the same as on a
  * server. Any time may be requested; increasing times are fastest.
@@ -40,22 +46,20 @@ export class Performance {
 
   /**
    * The face at `ms` after the start; `idleMs` is the time of idle life, which a loop of the cues does not restart. Throws
-   * RangeError for a time below 0 or over 9e15.
+   * RangeError for a time below 0 or over 9e15. Allocates nothing when it is given what to write `into`.
    */
-  at(ms: number, idleMs = ms): PerformedFace {
+  at(ms: number, idleMs = ms, into: PerformedFace = restingFace()): PerformedFace {
     this.evaluate(ms, idleMs);
-    const { viseme, expression } = neutralFrame();
-    const face = { viseme, expression, faps: new Float64Array(lastLowLevelFap + 1) };
     const { view } = this.library;
-    readSelects(view, this.frame, face);
-    for (let fap = 3; fap <= lastLowLevelFap; ++fap) face.faps[fap] = fapOf(view, this.frame, fap);
-    return face;
+    readSelects(view, this.frame, into);
+    for (let fap = 3; fap <= lastLowLevelFap; ++fap) into.faps[fap] = fapOf(view, this.frame, fap);
+    return into;
   }
 
-  /** The face as the frame that a stream would send. */
-  frameAt(ms: number, idleMs = ms, steps: QuantizerSteps = standardQuantizers): FaceFrame {
+  /** The face as the frame that a stream would send; `into` as in `at`. */
+  frameAt(ms: number, idleMs = ms, steps: QuantizerSteps = standardQuantizers, into: FaceFrame = neutralFrame()): FaceFrame {
     this.evaluate(ms, idleMs);
-    return readFrame(this.library.view, this.frame, neutralFrame(), steps);
+    return readFrame(this.library.view, this.frame, into, steps);
   }
 
   /** Frees the memory of the library; the performance must not be used afterwards. */

@@ -111,8 +111,15 @@ export class StudioPage {
   }
 
   /** Drops a file on the page, as from a file manager. */
-  async drop(path: string, name = basename(path)): Promise<void> {
-    const base64 = readFileSync(path).toString('base64');
+  drop(path: string, name = basename(path)): Promise<void> {
+    return this.dropBytes(name, readFileSync(path));
+  }
+
+  dropText(name: string, text: string): Promise<void> {
+    return this.dropBytes(name, Buffer.from(text));
+  }
+
+  private async dropBytes(name: string, bytes: Buffer): Promise<void> {
     const transfer = await this.page.evaluateHandle(
       async ({ content, fileName }) => {
         const bytes = Uint8Array.from(atob(content), (c) => c.charCodeAt(0));
@@ -120,7 +127,7 @@ export class StudioPage {
         data.items.add(new File([bytes], fileName));
         return data;
       },
-      { content: base64, fileName: name },
+      { content: bytes.toString('base64'), fileName: name },
     );
     for (const type of ['dragenter', 'dragover', 'drop'])
       await this.page.dispatchEvent('.studio', type, { dataTransfer: transfer });
@@ -266,7 +273,7 @@ export interface Inside {
       markers: {
         project(position: readonly number[], camera: unknown, width: number, height: number): { x: number; y: number };
       };
-      stage: { camera: { position: { toArray(): number[] } }; framesPerSecond: number };
+      stage: { camera: { position: { toArray(): number[] } }; framesPerSecond: number; drawn: number };
       face: {
         mesh: { vertexCount: number; rowOffsets: Uint32Array; rowWeights: Float32Array };
         object: { visible: boolean };

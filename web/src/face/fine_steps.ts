@@ -17,5 +17,5 @@ export const fineSteps: QuantizerSteps = standardQuantizers.map((step, fap) =>
 /** Converts levels of the standard's steps to levels of `fineSteps`. */
 export function refineLevels(levels: Int16Array, out: Int16Array): void {
   out.set(levels);
-  for (const fap of turns) out[fap] = levels[fap]! * turnsFiner;
+  for (let i = 0; i < turns.length; i += 1) out[turns[i]!] = levels[turns[i]!]! * turnsFiner;
 }

@@ -1,5 +1,5 @@
 import { neutralFrame, type FaceFrame } from '@client/index.ts';
-import { Performance, type Library } from '@client/motion/index.ts';
+import { Performance, restingFace, type Library } from '@client/motion/index.ts';
 import { quantize } from '@protocol/quantizers.ts';
 import { fineSteps, refineLevels } from './fine_steps.ts';
 import { shutLids } from './frame.ts';
@@ -21,6 +21,7 @@ export class IdlePlayer {
   /** Quantizer steps of the frames that `step` returns. */
   readonly steps = fineSteps;
   private readonly frame = neutralFrame();
+  private readonly face = restingFace();
   private readonly idle: Performance;
   private elapsed = 0;
 
@@ -37,12 +38,18 @@ export class IdlePlayer {
   step(deltaSeconds: number): FaceFrame {
     this.elapsed += deltaSeconds * 1000;
     const { frame, held, steps } = this;
-    const { faps } = this.idle.at(this.elapsed);
+    const { faps } = this.idle.at(this.elapsed, this.elapsed, this.face);
     frame.viseme = held.viseme;
     frame.expression = held.expression;
     refineLevels(held.levels, frame.levels);
-    for (const fap of turns) frame.levels[fap]! += quantize(faps[fap]!, steps[fap]!) ?? 0;
-    for (const [fap, shut] of shutLids) {
+    // By index: iterators are allocated, and this runs for each drawn frame.
+    for (let i = 0; i < turns.length; i += 1) {
+      const fap = turns[i]!;
+      frame.levels[fap]! += quantize(faps[fap]!, steps[fap]!) ?? 0;
+    }
+    for (let i = 0; i < shutLids.length; i += 1) {
+      const fap = shutLids[i]![0];
+      const shut = shutLids[i]![1];
       const open = frame.levels[fap]! * steps[fap]!;
       frame.levels[fap] = quantize(open + (faps[fap]! / shut) * (shut - open), steps[fap]!) ?? 0;
     }

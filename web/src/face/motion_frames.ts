@@ -1,4 +1,5 @@
 import type { TimedFrame } from '@client/index.ts';
+import { copyFrame } from '@protocol/face_frame.ts';
 import type { QuantizerSteps } from '@protocol/quantizers.ts';
 import { FrameClip, type Clip } from './clip.ts';
 
@@ -23,7 +24,7 @@ export function framesOfClip(clip: Clip): Motion {
   const frames = Array.from({ length: count }, (_, i): TimedFrame => {
     const time = (i * 1000) / writtenRate;
     const { from, to, t } = clip.momentAt(time);
-    return { time, state: (t < 0.5 ? from : to).state };
+    return { time, state: copyFrame((t < 0.5 ? from : to).state) };
   });
   return { frames, steps: clip.steps, rate: writtenRate };
 }

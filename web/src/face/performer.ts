@@ -23,8 +23,6 @@ export class Performer {
   private shown = handShown;
   private settled = handDuration;
   private enlivened = false;
-  // The two frames of a clip whose poses are in the kernel.
-  private clipFrames: [FaceFrame | null, FaceFrame | null] = [null, null];
 
   /** `clock`: the media time of a stream that is shown, ms, NaN while unknown; without it the player's own. */
   constructor(
@@ -67,13 +65,11 @@ export class Performer {
     this.enlivened = true;
   }
 
-  /** Shows a moment between two frames of a clip, without easing. The caller must not modify the frames afterwards. */
+  /** Shows a moment between two frames of a clip, without easing. */
   showBetween(from: FaceFrame, to: FaceFrame, t: number, steps: QuantizerSteps = standardQuantizers): void {
-    if (this.clipFrames[0] !== from) this.kernel.evaluate(from, clipFrom, steps);
-    if (this.clipFrames[1] !== to) this.kernel.evaluate(to, clipTo, steps);
-    this.clipFrames[0] = from;
-    this.clipFrames[1] = to;
-    this.kernel.interpolate(clipFrom, clipTo, t, handShown);
+    this.kernel.evaluate(from, clipFrom, steps);
+    if (to !== from) this.kernel.evaluate(to, clipTo, steps);
+    this.kernel.interpolate(clipFrom, to === from ? clipFrom : clipTo, t, handShown);
     this.shown = handShown;
     this.settled = handDuration;
   }

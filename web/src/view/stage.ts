@@ -445,7 +445,7 @@ export class Stage {
     }
     this.controls.update();
     let moves = false;
-    for (const hook of this.hooks) moves = hook(delta) || moves;
+    for (let i = 0; i < this.hooks.length; i += 1) moves = this.hooks[i]!(delta) || moves; // an iterator would be allocated
     if (moves) this.moved();
     if (this.rest === 0 && this.pace.tick(passed, 0, false, false))
       this.movingPixelRatio = fewerPixels(this.renderer.getPixelRatio());

@@ -36,7 +36,6 @@ export class StagePanel {
   private readonly hint = h('div', { class: 'stage-hint', hidden: true });
   private readonly figures = h('output', { class: 'figures', 'aria-label': t('Display rate') });
   private down: { x: number; y: number; time: number } | null = null;
-  private lastFigures = 0;
   /** Called when a head is to be uploaded. */
   onUpload: () => void = () => {};
   /** Called when a part is clicked while parts can be selected. */
@@ -85,10 +84,7 @@ export class StagePanel {
     studio.tab.watch(hint);
     points.chosen.watch(hint);
     points.changed.watch(hint);
-    scene.stage.onFrame(() => {
-      this.drawFigures();
-      return false;
-    });
+    setInterval(() => this.drawFigures(), 500);
   }
 
   private makeTools(): HTMLElement {
@@ -270,9 +266,6 @@ export class StagePanel {
   }
 
   private drawFigures(): void {
-    const now = performance.now();
-    if (now - this.lastFigures < 500) return;
-    this.lastFigures = now;
     const rate = this.scene.stage.framesPerSecond;
     const bytes = this.scene.packageBytes.value;
     // A stage at rest draws only on demand, so its frame rate is meaningless.
