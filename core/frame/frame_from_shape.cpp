@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 
 #include "core/frame/frame_guess.h"
 #include "core/frame/head_landmarks.h"
@@ -10,6 +12,13 @@ namespace {
 
 std::string letter(int axis) { return {"XYZ"[axis]}; }
 std::string name(Direction direction) { return std::string(to_string(direction)); }
+
+/// Three significant digits: "0.398", "39.8".
+std::string in_words(double length) {
+  std::array<char, 32> digits;
+  std::snprintf(digits.data(), digits.size(), "%.3g", length);
+  return digits.data();
+}
 
 /// The guess from the shape of a head without marked points; evidence is used in order of its reliability.
 class ShapeGuess {
@@ -159,16 +168,16 @@ class ShapeGuess {
     const bool is_human_in_metres = by_size && by_size->unit == LengthUnit::metre;
     if (is_gltf() && height >= 0.1 && height <= 2.6) {
       take_unit(LengthUnit::metre, is_human_in_metres,
-                "The unit of glTF is the metre, and " + std::to_string(height) + " m " +
+                "The unit of glTF is the metre, and " + in_words(height) + " m " +
                     (is_human_in_metres ? "fits a head or a body" : "is nearly a head's or a body's size"));
     } else if (by_size) {
       take_unit(by_size->unit, by_size->is_sure && !is_gltf(),
-                "The model is " + std::to_string(height) +
+                "The model is " + in_words(height) +
                     " tall, which is a head's, a bust's or a body's size if the unit is " +
                     std::string(to_string(by_size->unit)));
     } else {
       take_unit(LengthUnit::metre, false,
-                "The model is " + std::to_string(height) + " tall, which fits no unit: metres are assumed");
+                "The model is " + in_words(height) + " tall, which fits no unit: metres are assumed");
     }
   }
 

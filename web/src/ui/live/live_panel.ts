@@ -151,7 +151,7 @@ export class LivePanel {
     setText(this.figures.bytes, open ? `${formatBytes(stats.bytesPerSecond)}/s` : '–');
     // While another source drives the face the playhead stands still, so its distance to the stream is meaningless.
     const delay = open && stats.mediaTime !== null && playhead > 0 ? Math.round(stats.mediaTime - playhead) : null;
-    setText(this.figures.latency, delay !== null && delay < longestDelay ? t('{delay} ms', { delay: Math.max(0, delay) }) : '–');
+    setText(this.figures.latency, delay !== null && delay < longestDelay ? t('{delay} ms', { delay: formatCount(Math.max(0, delay)) }) : '–');
     setText(this.figures.frames, open ? formatCount(stats.sequence) : '–');
     setText(this.network, open && delay !== null && player ? networkWords(player.stats) : '');
   }

@@ -3,6 +3,7 @@ import { getSession, invitedToken, signIn, signOut } from '../../net/session.ts'
 import type { Session } from '../../net/types.ts';
 import { forgetKept } from '../../../offline/register.ts';
 import { h } from '../shared/dom.ts';
+import { capital } from '../shared/names.ts';
 import { t } from '../../words/words.ts';
 
 /**
@@ -47,7 +48,7 @@ function askForToken(base: string, root: HTMLElement, reason: string): Promise<S
       spellcheck: false,
       'aria-describedby': 'token-fault',
     });
-    const fault = h('p', { id: 'token-fault', class: 'sign-in-fault', role: 'alert' }, reason);
+    const fault = h('p', { id: 'token-fault', class: 'sign-in-fault', role: 'alert' }, capital(reason));
     const button = h('button', { type: 'submit', class: 'primary' }, t('Sign in'));
     const form = h(
       'form',
@@ -61,7 +62,7 @@ function askForToken(base: string, root: HTMLElement, reason: string): Promise<S
               resolve,
               (error: unknown) => {
                 const problem = problemOf(error);
-                fault.textContent = problem.detail ?? problem.title;
+                fault.textContent = capital(problem.detail ?? problem.title);
                 button.disabled = false;
                 input.select();
               },
