@@ -1,4 +1,5 @@
 import { beforeAll, describe, expect, test } from 'vitest';
+import { sampleHead } from './support/paths.ts';
 import { phone, StudioPage } from './support/studio_page.ts';
 import { browser, server, useStudio } from './support/suite.ts';
 
@@ -55,6 +56,24 @@ describe('controls', () => {
     found.push(...(await small('a dialog')));
     expect(found).toEqual([]);
     expect(measured).toBeGreaterThan(200);
+    expect(studio.errors).toEqual([]);
+    await studio.close();
+  });
+
+  test('Progress_OfAnImport_IsSaidByALiveRegionUntilItIsDone', async () => {
+    const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { coarse: true });
+    const { page } = studio;
+    await studio.waitForStage('ready');
+    await page.evaluate(() => {
+      const said: string[] = [];
+      const region = document.querySelector('.studio > [role=status].visually-hidden')!;
+      new MutationObserver(() => said.push(region.textContent!)).observe(region, { childList: true, characterData: true, subtree: true });
+      Object.assign(window, { said });
+    });
+    await studio.drop(sampleHead, 'another.glb');
+    await page.waitForFunction(() => (window as unknown as { said: string[] }).said.at(-1) === 'Done.');
+    const said = await page.evaluate(() => (window as unknown as { said: string[] }).said);
+    expect(said.some((text) => /another/.test(text)), said.join(' | ')).toBe(true);
     expect(studio.errors).toEqual([]);
     await studio.close();
   });

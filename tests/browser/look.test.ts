@@ -1,37 +1,222 @@
-import { describe, expect, test } from 'vitest';
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { createServer } from 'node:http';
+import { tmpdir } from 'node:os';
+import { extname, join } from 'node:path';
+import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import type { BrowserContextOptions } from 'playwright-core';
+import { untilFace } from './support/face_page.ts';
+import { buildDir, root, samplePoints } from './support/paths.ts';
+import { startServer, type RunningServer } from './support/server.ts';
 import { StudioPage } from './support/studio_page.ts';
 import { browser, server, useStudio } from './support/suite.ts';
 
-useStudio();
+/** Every screen in every look, to be looked at by people; without it two looks, whose layout alone is checked. */
+const all = process.env['SEMBLANTE_SCREENS'] === 'all';
 
-const sizes = [
-  { name: 'wide', width: 1440, height: 900 },
-  { name: 'narrow', width: 390, height: 844 },
-];
+const sizes = {
+  wide: { viewport: { width: 1440, height: 900 } },
+  laptop: { viewport: { width: 1024, height: 700 } },
+  phone: { viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true },
+} satisfies Record<string, BrowserContextOptions>;
+
+interface Look {
+  name: string;
+  isPhone: boolean;
+  options: BrowserContextOptions;
+}
+const looks: Look[] = Object.entries(sizes).flatMap(([size, options]) =>
+  (['light', 'dark'] as const).flatMap((colorScheme) =>
+    ['en-US', 'pt-BR'].map((locale) => ({
+      name: `${size}-${colorScheme}-${locale.slice(0, 2)}`,
+      isPhone: size === 'phone',
+      options: { ...options, colorScheme, locale, reducedMotion: 'reduce' as const },
+    })),
+  ),
+);
+const chosen = all ? looks : looks.filter(({ name }) => name === 'wide-light-en' || name === 'phone-dark-pt');
+
+useStudio();
+let empty: RunningServer;
+let closed: RunningServer;
+const folder = mkdtempSync(join(tmpdir(), 'semblante-look-'));
+beforeAll(async () => {
+  [empty, closed] = await Promise.all([startServer({ demo: false }), startServer({ demo: false, tokenScope: 'edit' })]);
+  await fetch(`${empty.url}/v1/models/sample`, { method: 'DELETE' });
+  const odd = ['v 0 0 0', 'v 1 0 0', 'v 0 1 0', 'v 0 0 1', 'v 0 0 -1', 'f 1 2 3', 'f 1 2 4', 'f 1 2 5', 'f 1 3 4'].join('\n');
+  await fetch(`${server.url}/v1/models?name=Odd`, { method: 'POST', headers: { 'Content-Type': 'model/obj' }, body: odd });
+  writeFileSync(join(folder, 'letter.glb'), readFileSync(samplePoints));
+});
+afterAll(async () => {
+  await Promise.all([empty?.stop(), closed?.stop()]);
+  rmSync(folder, { recursive: true, force: true });
+});
+
 const tabs = ['animate', 'fit', 'points', 'live'] as const;
 
-describe('look', () => {
-  for (const { name, width, height } of sizes) {
-    for (const dark of [false, true]) {
-      test(`Studio_${name}${dark ? 'Dark' : 'Light'}_FitsThePage`, async () => {
-        const studio = await StudioPage.open(browser, server.url, { width, height, dark });
-        await studio.waitForStage('ready');
-        for (const tab of tabs) {
-          await studio.page.locator(`#tab-${tab}`).click();
-          // No element overflows horizontally, and the page itself does not scroll.
-          const overflow = (): Promise<number[]> =>
-            studio.page.evaluate(() => [
-              document.documentElement.scrollWidth - innerWidth,
-              document.documentElement.scrollHeight - innerHeight,
-            ]);
-          await studio.drawn(3);
-          expect(await overflow()).toEqual([0, 0]);
-          await studio.keep(`${name}-${dark ? 'dark' : 'light'}-${tab}`);
-        }
-        expect(studio.errors).toEqual([]);
-        await studio.close();
+/** A page in one look, whose screens are checked and, if all are wanted, kept. */
+class Screens {
+  private constructor(
+    readonly studio: StudioPage,
+    private readonly look: Look,
+  ) {}
+
+  static async open(look: Look, url: string, allowed?: RegExp): Promise<Screens> {
+    const context = await browser.newContext(look.options);
+    return new Screens(await StudioPage.openIn(context, url, allowed ? { allowed } : {}), look);
+  }
+
+  /** No element overflows horizontally, and the page itself does not scroll. */
+  async shot(name: string): Promise<void> {
+    const { page } = this.studio;
+    await this.studio.drawn(3);
+    const overflow = await page.evaluate(() => [
+      document.documentElement.scrollWidth - innerWidth,
+      document.documentElement.scrollHeight - innerHeight,
+    ]);
+    expect(overflow, name).toEqual([0, 0]);
+    if (all) await this.studio.keep(`screens/${this.look.name}-${name}`);
+  }
+
+  /** A panel from its top to its end, a screen at a time. */
+  async scroll(name: string, panel: string): Promise<void> {
+    for (let part = 1; part < 8; part += 1) {
+      await this.shot(`${name}-${part}`);
+      if (!all) return;
+      const moved = await this.studio.page.locator(panel).evaluate((element) => {
+        const scroller = [element, ...element.querySelectorAll('*')].find((one) => one.scrollHeight > one.clientHeight + 4 && /auto|scroll/.test(getComputedStyle(one).overflowY));
+        const before = scroller?.scrollTop ?? 0;
+        scroller?.scrollBy({ top: scroller.clientHeight * 0.9, behavior: 'instant' });
+        return (scroller?.scrollTop ?? 0) > before + 4;
       });
+      if (!moved) return;
     }
+  }
+
+  async dialog(name: string): Promise<void> {
+    await this.studio.page.locator('dialog[open]').waitFor();
+    await this.shot(name);
+    await this.studio.page.keyboard.press('Escape');
+  }
+
+  close(): Promise<void> {
+    return this.studio.close();
+  }
+}
+
+/** The example page of the element, beside its package, as somebody's server has it. */
+async function serveExample(): Promise<{ url: string; stop(): void }> {
+  const types: Record<string, string> = { '.js': 'text/javascript', '.wasm': 'application/wasm', '.html': 'text/html' };
+  const files = createServer((request, answer) => {
+    const path = request.url === '/' ? join(root, 'clients/js/example.html') : join(buildDir, 'npm/semblante', request.url ?? '');
+    try {
+      const content = request.url === '/' ? readFileSync(path, 'utf8').replace('http://127.0.0.1:8080', server.url) : readFileSync(path);
+      answer.writeHead(200, { 'Content-Type': types[extname(path)] ?? 'application/octet-stream' }).end(content);
+    } catch {
+      answer.writeHead(404).end();
+    }
+  });
+  await new Promise<void>((ready) => files.listen(0, '127.0.0.1', ready));
+  return { url: `http://127.0.0.1:${(files.address() as { port: number }).port}/`, stop: () => files.close() };
+}
+
+describe('look', () => {
+  for (const look of chosen) {
+    test(`Screens_${look.name}_FitThePage`, async () => {
+      const screens = await Screens.open(look, `${server.url}/#sample/animate`, /status of 4\d\d|ERR_FAILED/);
+      const { studio } = screens;
+      const { page } = studio;
+      await studio.waitForStage('ready');
+
+      for (const tab of tabs) {
+        await page.locator(`#tab-${tab}`).click();
+        await screens.scroll(tab, `#panel-${tab}`);
+      }
+      await page.locator('#tab-points').click();
+      await page.locator('.points .section-head .segments button').last().click();
+      await screens.shot('points-list');
+      await page.locator('[data-point="8.1"]').click();
+      await screens.shot('point-chosen');
+
+      await page.locator('#tab-live').click();
+      await page.locator('.stream .square').first().click();
+      await screens.dialog('dialog-phone');
+      await page.locator('.live .section-head .square').first().click();
+      await screens.dialog('dialog-stream');
+      await page.locator('#tab-live').press('?');
+      await screens.dialog('dialog-keys');
+
+      await page.locator('#tab-animate').click();
+      await page.getByRole('button', { name: /^(Code|Código)$/ }).click();
+      await screens.dialog('dialog-code');
+      for (const box of ['influence-view', 'units-view']) await page.locator(`#${box}`).check();
+      await page.locator('[data-expression="1"]').click();
+      await page.locator('[data-viseme="2"]').click();
+      await screens.shot('influence');
+      for (const box of ['influence-view', 'units-view']) await page.locator(`#${box}`).uncheck();
+      await page.evaluate(() => document.querySelectorAll('details').forEach((one) => (one.open = true)));
+      await screens.scroll('animate-unfolded', '#panel-animate');
+
+      if (look.isPhone) await page.locator('#tab-heads').click();
+      await page.locator('.head').first().hover();
+      await screens.shot('heads');
+      await page.locator('.head-actions button').last().click();
+      await screens.dialog('dialog-deletion');
+      await page.locator('.head-actions button').first().click();
+      await screens.dialog('dialog-name');
+
+      // A head with findings and without points, and a file that is no head.
+      await page.locator('.head', { hasText: 'Odd' }).locator('.open').click();
+      await page.locator('#tab-fit').click();
+      await page.locator('.finding-show').first().click();
+      await screens.scroll('findings', '#panel-fit');
+      await page.locator('#tab-points').click();
+      await screens.shot('points-none');
+      await page.locator('#tab-animate').click();
+      await screens.shot('animate-none');
+      await studio.drop(join(folder, 'letter.glb'));
+      await page.locator('.toast-error, .stage-card.error').first().waitFor();
+      await screens.shot('refused');
+      await page.route('**/v1/**', (route) => route.abort());
+      await page.reload();
+      await page.locator('.stage-card.error').waitFor();
+      await screens.shot('no-server');
+      await screens.close();
+
+      const none = await Screens.open(look, empty.url);
+      await none.studio.page.locator('.stage-card, .stage-empty, .drop').first().waitFor();
+      for (const tab of all ? tabs : (['animate'] as const)) {
+        await none.studio.page.locator(`#tab-${tab}`).click();
+        await none.shot(`empty-${tab}`);
+      }
+      expect(none.studio.errors).toEqual([]);
+      await none.close();
+
+      const outside = await Screens.open(look, closed.url, /status of 401/);
+      await outside.studio.page.getByLabel('Token').fill('smb_wrong_token');
+      await outside.studio.page.getByLabel('Token').press('Enter');
+      await outside.studio.page.getByRole('alert').waitFor();
+      await outside.shot('sign-in');
+      await outside.close();
+
+      // The page of a phone, and the element in somebody's page.
+      if (!all) return;
+      const example = await serveExample();
+      try {
+        for (const [name, url, state] of [
+          ['view', `${server.url}/view/demo`, 'playing'],
+          ['view-unknown', `${server.url}/view/nobody`, 'error'],
+          ['example', example.url, ''],
+        ] as const) {
+          const one = await Screens.open(look, url, /./);
+          if (state === 'playing') await untilFace(one.studio.page, state);
+          await one.studio.page.waitForTimeout(state === 'playing' ? 500 : 4000); // the rest has no event to wait for
+          await one.studio.keep(`screens/${look.name}-${name}`);
+          await one.close();
+        }
+      } finally {
+        example.stop();
+      }
+    });
   }
 
   test('Studio_EveryControl_HasAName', async () => {
