@@ -8,6 +8,7 @@ export default defineConfig({
   server: { fs: { allow: ['..'] } },
   test: {
     include: ['../tests/browser/**/*.test.ts'],
+    globalSetup: ['../tests/browser/support/prepare.ts'],
     environment: 'node',
     // Each wait has a limit of its own (support/patience.ts); this ends what hangs without one, and names it.
     testTimeout: 2 * patience,
