@@ -234,10 +234,10 @@ export const portuguese = {
   'Place the chosen point at the cross': 'Pôr o ponto escolhido na cruz',
   'Confirm a proposal': 'Confirmar uma proposta',
   'Remove the chosen point': 'Remover o ponto escolhido',
-  'Deselect the point': 'Não escolher nenhum ponto',
+  'Deselect the point': 'Desmarcar o ponto',
   Redo: 'Refazer',
   Everywhere: 'Em toda parte',
-  'Switch tabs, when a tab has the focus': 'Outra aba, quando uma aba tem o foco',
+  'Switch tabs, when a tab has the focus': 'Mudar de aba, quando uma aba tem o foco',
   'This sheet': 'Esta folha',
   Keys: 'Teclas',
   '1 error': '1 erro',
@@ -246,16 +246,16 @@ export const portuguese = {
   'Done.': 'Pronto.',
   measured: 'medida',
   'Asking the server for heads': 'Perguntando ao servidor pelas cabeças',
-  'Drop a file ({formatList}) anywhere on this page. The next steps are its points and a press of a button; then it talks.':
-    'Solte um arquivo ({formatList}) em qualquer lugar desta página. Depois vêm os pontos e um botão; então ela fala.',
+  'Drop a file ({formatList}) anywhere on this page. Then place its points and press a button, and it talks.':
+    'Solte um arquivo ({formatList}) em qualquer lugar desta página. Depois coloque os pontos e aperte um botão, e a cabeça fala.',
   'No connection to the server.': 'Sem conexão com o servidor.',
-  'Heads that were opened in this browser can be seen and animated, and points set: they wait here until they can be saved. ':
-    'Cabeças que foram abertas neste navegador podem ser vistas e animadas, e pontos postos: eles esperam aqui até poderem ser salvos. ',
+  'Heads opened in this browser before can be seen and animated. Points can be placed: they are kept here until they can be saved. ':
+    'As cabeças já abertas neste navegador podem ser vistas e animadas. Pontos podem ser colocados: ficam guardados aqui até poderem ser salvos. ',
   'Uploading, parametrizing, speaking and streams need the server.': 'Enviar, parametrizar, falar e transmitir precisam do servidor.',
   Stream: 'Fluxo',
   'Delete the cue': 'Excluir a entrada',
   Timeline: 'Linha do tempo',
-  'The previous or the next cue': 'A entrada anterior, a próxima',
+  'The previous or the next cue': 'A entrada anterior ou a próxima',
   'Move the cue': 'Mover a entrada',
   'Shorten or lengthen the cue': 'Encurtar ou alongar a entrada',
 } as const;

@@ -1,6 +1,6 @@
 /** The texts of the Animate and Fit tabs in Brazilian Portuguese, by their English form. */
 export const portugueseAnimate = {
-  'Blinks and glances under what you set, on this page.': 'Piscadas e olhares por baixo do que você ajusta, nesta página.',
+  'Adds blinks and glances to what you set, on this page only.': 'Soma piscadas e olhares ao que você ajusta, só nesta página.',
   Strength: 'Intensidade',
   Silence: 'Silêncio',
   'Neutral face': 'Rosto neutro',
@@ -144,8 +144,8 @@ export const portugueseAnimate = {
   '{list} and {last}': '{list} e {last}',
   'Text to say': 'Texto a dizer',
   'Your own recording': 'A sua própria gravação',
-  'Type what {name} says, for captions and the best mouth. Left empty, it is heard.':
-    'Escreva o que {name} diz, para legendas e a melhor boca. Vazio, o som é ouvido.',
+  'Type what {name} says, for captions and the best mouth. If this stays empty, the mouth follows the sound alone.':
+    'Escreva o que {name} diz, para legendas e a melhor boca. Se ficar vazio, a boca segue só o som.',
   'Use the microphone': 'Usar o microfone',
   'Stop the microphone': 'Parar o microfone',
   'The browser asks for the microphone…': 'O navegador pede o microfone…',
@@ -191,7 +191,7 @@ export const portugueseAnimate = {
   '{name} speaks and is recorded': '{name} fala e está sendo gravado',
   'Recorded: {time}': 'Gravado: {time}',
   'Show the recording': 'Mostrar a gravação',
-  'It has been said.': 'Foi dito.',
+  'Finished speaking.': 'A fala terminou.',
   'Language, emotion, voice, speed': 'Idioma, emoção, voz, velocidade',
   'The sound cannot be played.': 'O som não pode ser tocado.',
   'Download {name}': 'Baixar {name}',
@@ -205,7 +205,7 @@ export const portugueseAnimate = {
   '{count} cues': '{count} entradas',
   Code: 'Código',
   'Programs that make this face': 'Programas que fazem este rosto',
-  'Take this face along': 'Levar este rosto',
+  'Save or share this face': 'Salvar ou compartilhar este rosto',
   'Programs to copy': 'Programas para copiar',
   'Programming language': 'Linguagem de programação',
   Program: 'Programa',

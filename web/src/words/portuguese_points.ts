@@ -53,7 +53,7 @@ export const portuguesePoints = {
   'As in the paper; fastest.': 'Como no artigo; o mais rápido.',
   'Across triangles': 'Através dos triângulos',
   'Closer to the true distance over the skin.': 'Mais perto da distância real sobre a pele.',
-  Automatic: 'Automática',
+  Automatic: 'Automático',
   'The jaw opens as far as in the shapes (morph targets) of the model; as usual if it has none.': 'A mandíbula abre tanto quanto nas formas (morph targets) do modelo; o usual se ele não tem nenhuma.',
   Quiet: 'Discreta',
   'The jaw opens half as far in speech.': 'A mandíbula abre metade na fala.',

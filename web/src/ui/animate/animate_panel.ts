@@ -23,7 +23,7 @@ import type { Toasts } from '../shared/toast.ts';
 import { VisemeGrid } from './viseme_grid.ts';
 import { nameOf, t } from '../../words/words.ts';
 
-const idleNote = t('Blinks and glances under what you set, on this page.');
+const idleNote = t('Adds blinks and glances to what you set, on this page only.');
 
 export interface AnimatePanelOptions {
   frame: FaceFrame;
@@ -93,7 +93,7 @@ export class AnimatePanel {
     canIdle(this.resetAll, options.toasts);
     const act = (title: string, name: 'blink' | 'mirror', hint: string, action: () => void): HTMLElement =>
       h('button', { type: 'button', class: 'quiet', title: hint, on: { click: action } }, icon(name, 16), title);
-    const take = h('div', { class: 'row wrap quick-acts', role: 'toolbar', 'aria-label': t('Take this face along') }, ...options.exports);
+    const take = h('div', { class: 'row wrap quick-acts', role: 'toolbar', 'aria-label': t('Save or share this face') }, ...options.exports);
     rove(take, 'button');
     const whole = h(
       'div',

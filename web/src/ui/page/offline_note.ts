@@ -22,7 +22,7 @@ export function offlineNote(base: string, back: () => void): HTMLElement {
             icon('warning', 16),
             h('strong', {}, t('No connection to the server.')),
             ' ',
-            t('Heads that were opened in this browser can be seen and animated, and points set: they wait here until they can be saved. ') +
+            t('Heads opened in this browser before can be seen and animated. Points can be placed: they are kept here until they can be saved. ') +
               t('Uploading, parametrizing, speaking and streams need the server.'),
           ]),
     );

@@ -40,7 +40,7 @@ export function overlayCard(state: SceneState, facts: OverlayFacts): HTMLElement
 function invitation({ heads, upload }: OverlayFacts): HTMLElement {
   const words = heads
     ? t('Choose one from the list, or drop a file ({formatList}) anywhere on this page.', { formatList })
-    : t('Drop a file ({formatList}) anywhere on this page. The next steps are its points and a press of a button; then it talks.', {
+    : t('Drop a file ({formatList}) anywhere on this page. Then place its points and press a button, and it talks.', {
         formatList,
       });
   return h(

@@ -83,7 +83,7 @@ export class SpeakPanel {
         ? h(
             'div',
             { class: 'row' },
-            h('span', { class: 'grow' }, t('Type what {name} says, for captions and the best mouth. Left empty, it is heard.', { name: recording.name })),
+            h('span', { class: 'grow' }, t('Type what {name} says, for captions and the best mouth. If this stays empty, the mouth follows the sound alone.', { name: recording.name })),
             h(
               'button',
               { type: 'button', on: { click: () => this.removeRecording() }, 'aria-label': t('Remove the recording') },

@@ -115,7 +115,7 @@ export class StreamSpeechBox {
               t('Show the recording'),
             ),
           )
-        : failure === null ? h('p', { class: 'muted' }, t('It has been said.')) : null,
+        : failure === null ? h('p', { class: 'muted' }, t('Finished speaking.')) : null,
     );
   }
 }
