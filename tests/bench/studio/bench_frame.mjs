@@ -75,7 +75,7 @@ async function until(state, url) {
 
 /** Uploads a head with the sample's points and parametrizes it. */
 async function makeHead(server, obj) {
-  const { id } = await json(`${server}/v1/models?name=Cut`, { method: 'POST', headers: { 'Content-Type': 'model/obj' }, body: obj });
+  const { model: { id } } = await json(`${server}/v1/models?name=Cut`, { method: 'POST', headers: { 'Content-Type': 'model/obj' }, body: obj });
   const url = `${server}/v1/models/${id}`;
   await until('ready', url);
   const { points } = JSON.parse(readFileSync(join(build, 'sample/sample-head.fps.json'), 'utf8'));
