@@ -153,7 +153,7 @@ export class Shelf {
                 'span',
                 { class: 'muted small' },
                 h('span', { class: `state state-${model.state}` }, stateWords[model.state]),
-                facts ? [' · ', h('span', { class: 'facts' }, facts)] : null,
+                facts ? [' · ', h('span', { class: 'head-facts' }, facts)] : null,
               ),
         ),
       ),
