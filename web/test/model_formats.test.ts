@@ -25,5 +25,5 @@ test('MediaTypeOf_NamesInAnyCase_GoByTheExtension', () => {
 
 test('ModelFormats_ForPeopleAndTheFileChooser_NameEach', () => {
   expect(headFileEndings.split(',')).toContain('.vrm');
-  expect(anyFormat).toBe('GLB, VRM, glTF, OBJ, PLY, STL or ZIP');
+  expect(anyFormat).toBe('GLB, VRM, glTF, OBJ, PLY, STL, or ZIP');
 });

@@ -1,3 +1,4 @@
+import { language } from '../words/words.ts';
 import type { operations } from './generated/api.ts';
 
 type UploadMediaType = keyof operations['createModel']['requestBody']['content'];
@@ -24,8 +25,8 @@ const titles = modelFormats.map(({ title }) => title);
 /** All formats as a list: "GLB, VRM, glTF, ...". */
 export const formatList = titles.join(', ');
 
-/** All formats as alternatives: "GLB, VRM, ... or OBJ". */
-export const anyFormat = `${titles.slice(0, -1).join(', ')} or ${titles.at(-1)}`;
+/** All formats as alternatives: "GLB, VRM, ..., or OBJ", in Portuguese "ou OBJ". */
+export const anyFormat = new Intl.ListFormat(language, { type: 'disjunction' }).format(titles);
 
 /** The media type by the extension of the file name; the server decides by the content. */
 export function mediaTypeOf(fileName: string): UploadMediaType {
