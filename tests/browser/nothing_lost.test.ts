@@ -61,6 +61,50 @@ describe('nothing is lost', () => {
     await studio.close();
   });
 
+  test('Points_TwoPeopleAtOneHead_SeeEachOthersChangesOrChoose', async () => {
+    const studio = await StudioPage.open(browser, `${server.url}/#sample/points`, { width: 1280, height: 720, coarse: true });
+    const { page } = studio;
+    await studio.waitForStage('ready');
+    await page.getByRole('button', { name: 'Saved' }).waitFor();
+    const url = `${server.url}/v1/models/sample/feature-points`;
+    const patch = async (id: string, by: number): Promise<void> => {
+      const [x, y, z] = known[id]!.position;
+      const body = JSON.stringify({ points: { [id]: { position: [x, y + by, z] } } });
+      expect((await fetch(url, { method: 'PATCH', body, headers: { 'Content-Type': 'application/json' } })).ok).toBe(true);
+    };
+    const shown = (id: string): Promise<number> =>
+      page.evaluate((point) => {
+        const { scene } = (window as unknown as { semblante: { scene: { markers: { of(id: string): { position: number[] } } } } }).semblante;
+        return scene.markers.of(point).position[1]!;
+      }, id);
+
+    // Another person moves a point: it is shown here.
+    const before = await shown('2.1');
+    await patch('2.1', -0.01);
+    await page.getByText('Someone else changed 1 point.').waitFor();
+    expect(await shown('2.1')).toBeLessThan(before - 0.005);
+    await page.getByRole('button', { name: 'Saved' }).waitFor();
+
+    // Both move the same point: the own place stays on the screen until one has chosen.
+    await page.locator('[data-point="2.1"]').click();
+    await mark(studio, ['2.1']);
+    await page.getByRole('button', { name: 'Save 1 change' }).waitFor();
+    const mine = await shown('2.1');
+    await patch('2.1', -0.02);
+    await page.getByText('Someone else changed too: 2.1. Yours is shown.').waitFor();
+    expect(await shown('2.1')).toBe(mine);
+    await studio.keep('two-people');
+    await page.getByRole('button', { name: 'Take theirs' }).click();
+    await page.getByRole('button', { name: 'Saved' }).waitFor();
+    expect(await shown('2.1')).toBeLessThan(before - 0.015);
+    await page.keyboard.press('Control+z');
+    await page.getByRole('button', { name: 'Save 1 change' }).click();
+    await page.getByRole('button', { name: 'Saved' }).waitFor();
+    expect(await shown('2.1')).toBeCloseTo(mine, 4);
+    expect(studio.errors).toEqual([]);
+    await studio.close();
+  });
+
   test('Address_HeadTabPointAndStream_AreNamedAndComeBack', async () => {
     const studio = await StudioPage.open(browser, server.url, { width: 1280, height: 720, coarse: true });
     const { page } = studio;

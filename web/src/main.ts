@@ -86,6 +86,7 @@ function main(root: HTMLElement, session: Session | null, theme: HTMLElement): v
     drafts.forget(id);
     settings.forget(id);
   };
+  studio.onChangedElsewhere = (model) => void points.update(model);
   const fit = new FitModel(studio);
   const parametrizer = new Parametrizer(studio, points);
   const frame = neutralFrame();

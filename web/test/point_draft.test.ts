@@ -47,6 +47,39 @@ describe('point draft', () => {
     expect(draft.canRedo).toBe(false);
   });
 
+  test('Draft_PointsOfOthers_AreTakenInEveryStep_AndOwnChangesStay', () => {
+    const draft = new PointDraft();
+    draft.reset([['2.1', at(1)], ['3.1', at(2)], ['8.3', at(3)], ['8.4', at(4)]]);
+    draft.place('2.1', at(10));
+    draft.place('8.3', at(30));
+    draft.undo();
+    // Another person moves a point of each kind (changed here, changed here and undone, unchanged), removes one and adds one.
+    const { changed, contested } = draft.rebase([['2.1', at(11)], ['3.1', at(21)], ['8.3', at(31)], ['9.3', at(91)]]);
+    expect(new Set(changed)).toEqual(new Set(['2.1', '3.1', '8.3', '8.4', '9.3']));
+    expect(contested).toEqual(['2.1']);
+    expect(verticesOf(draft)).toEqual({ '2.1': 10, '3.1': 21, '8.3': 31, '9.3': 91 });
+    expect(draft.changed).toEqual(new Map([['2.1', at(10)]]));
+    draft.redo();
+    expect(verticesOf(draft)).toEqual({ '2.1': 10, '3.1': 21, '8.3': 30, '9.3': 91 });
+    draft.undo();
+    draft.undo();
+    expect(verticesOf(draft)).toEqual({ '2.1': 11, '3.1': 21, '8.3': 31, '9.3': 91 });
+    expect(draft.changes).toBe(0);
+    draft.redo();
+    draft.takeSaved(['2.1', '3.1']);
+    expect(draft.changes).toBe(0);
+    draft.undo();
+    expect(draft.points.get('2.1')?.vertex).toBe(10);
+  });
+
+  test('Draft_SameChangeOnBothSides_IsNotContested', () => {
+    const draft = new PointDraft();
+    draft.reset([['2.1', at(1)]]);
+    draft.place('2.1', at(5));
+    expect(draft.rebase([['2.1', at(5)]])).toEqual({ changed: ['2.1'], contested: [] });
+    expect(draft.changes).toBe(0);
+  });
+
   test('Draft_SavedMirroredAndProposed_CanBeUndone', () => {
     const proposal = { method: 'shape', confidence: 'low', expectedError: 0.1 } as const;
     const draft = new PointDraft();

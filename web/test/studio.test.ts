@@ -58,6 +58,23 @@ test('Update_OpenHeadChangedElsewhere_IsReadAgain', async () => {
   expect(studio.selected.value?.name).toBe('Ana Maria');
 });
 
+test('Update_OpenHeadChangedElsewhere_IsTold_UnlessThisPageWorksOnIt', async () => {
+  const { studio, server, said } = await studioWith(head('ana'));
+  const told: string[] = [];
+  studio.onChangedElsewhere = ({ updated }) => told.push(updated);
+  const parametrization = (name: string): Model['package'] => ({ parametrization: name }) as Model['package'];
+  server.heads = [{ ...head('ana', '2026-01-02T00:00:00.000Z'), package: parametrization('p1') }];
+  await studio.update();
+  expect(told).toEqual(['2026-01-02T00:00:00.000Z']);
+  expect(said).toEqual(['ana was parametrized elsewhere.']);
+  server.heads = [{ ...head('ana', '2026-01-03T00:00:00.000Z'), package: parametrization('p2') }];
+  studio.activities.set(new Map([['ana', { title: 'Parametrizing', progress: null }]]));
+  await studio.update();
+  expect(told).toHaveLength(1);
+  expect(said).toHaveLength(1);
+  expect(studio.selected.value?.package?.parametrization).toBe('p2');
+});
+
 test('Update_NothingNew_ChangesNothing', async () => {
   const { studio, server } = await studioWith(head('ana'), head('rui'));
   const before = studio.models.value;

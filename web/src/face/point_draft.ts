@@ -48,14 +48,34 @@ export class PointDraft {
     this.current = new Map(this.saved);
   }
 
+  /**
+   * Takes points that someone else has saved: whatever is not changed here follows them, also in the steps that can be undone or
+   * redone, so that undoing a change of one's own undoes nothing of theirs. Unsaved changes stay. `changed`: the ids that differ
+   * from before; `contested`: those among them that have another, unsaved change here.
+   */
+  rebase(points: Iterable<[string, PlacedPoint]>): { changed: string[]; contested: string[] } {
+    const before = this.saved;
+    const now = new Map([...points].filter(([id]) => pointById(id) !== undefined));
+    const changed = [...new Set([...before.keys(), ...now.keys()])].filter((id) => !same(before.get(id), now.get(id)));
+    const contested = changed.filter((id) => this.isChanged(id) && !same(this.current.get(id), now.get(id)));
+    for (const state of [this.current, ...this.history, ...this.undone])
+      for (const id of changed) if (same(state.get(id), before.get(id))) put(state, id, now.get(id));
+    this.saved = now;
+    return { changed, contested };
+  }
+
+  /** Gives up the unsaved changes of these points, as one step that can be undone. */
+  takeSaved(ids: readonly string[]): void {
+    if (!ids.some((id) => this.isChanged(id))) return;
+    this.step();
+    for (const id of ids) put(this.current, id, this.saved.get(id));
+  }
+
   /** Takes changes of an earlier visit, null for a removed point, as one step that can be undone. */
   restore(changes: ReadonlyMap<string, PlacedPoint | null>): void {
     if ([...changes].every(([id, point]) => same(this.current.get(id), point ?? undefined))) return;
     this.step();
-    for (const [id, point] of changes) {
-      if (point) this.current.set(id, point);
-      else this.current.delete(id);
-    }
+    for (const [id, point] of changes) put(this.current, id, point ?? undefined);
   }
 
   /** Takes other points as one step that can be undone. */
@@ -102,11 +122,7 @@ export class PointDraft {
     const before = new Map(this.current);
     const both = new Set(ids.flatMap((id) => [id, pointById(id)?.mirror ?? id]));
     this.step();
-    for (const id of both) {
-      const other = before.get(pointById(id)?.mirror ?? id);
-      if (other) this.current.set(id, other);
-      else this.current.delete(id);
-    }
+    for (const id of both) put(this.current, id, before.get(pointById(id)?.mirror ?? id));
   }
 
   undo(): boolean {
@@ -163,11 +179,7 @@ export class PointDraft {
     const concerned = ids.filter((id) => this.current.get(id)?.proposal);
     if (concerned.length === 0) return;
     this.step();
-    for (const id of concerned) {
-      const changed = make(this.current.get(id)!);
-      if (changed) this.current.set(id, changed);
-      else this.current.delete(id);
-    }
+    for (const id of concerned) put(this.current, id, make(this.current.get(id)!) ?? undefined);
   }
 
   private step(): void {
@@ -195,6 +207,11 @@ export function proposalBody({ method, confidence, expectedError, remark }: Poin
   if (expectedError !== null) body.expected_error = expectedError;
   if (remark !== undefined) body.remark = remark;
   return body;
+}
+
+function put(points: Map<string, PlacedPoint>, id: string, point: PlacedPoint | undefined): void {
+  if (point) points.set(id, point);
+  else points.delete(id);
 }
 
 function same(a: PlacedPoint | undefined, b: PlacedPoint | undefined): boolean {

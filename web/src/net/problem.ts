@@ -73,7 +73,7 @@ export function adviceFor(problem: Problem): string | null {
     return t('Delete what is no longer needed, or ask whoever runs the server for a higher limit.');
   if (slug === 'insufficient-storage') return t("The server's disk is full: free some space on it, then try again.");
   if (problem.status === 412 || problem.status === 428)
-    return t('Someone else changed it meanwhile: reload, then make the change again.');
+    return t('Look at what has changed, then try again.');
   if (slug === 'invalid-feature-point') return t('Move or remove the points marked in red, then save again.');
   if (problem.status === 404) return t('It may have been deleted: reload the page.');
   if (problem.status === 429 || problem.status === 503) return t('The server is busy: wait a moment and try again.');

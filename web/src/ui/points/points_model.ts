@@ -10,6 +10,9 @@ import type { MirrorLock } from './mirror_lock.ts';
 import type { Studio } from '../shared/studio.ts';
 import { t } from '../../words/words.ts';
 
+/** How saving ended; `overtaken`: someone else had saved since the points were read, and theirs have been taken in. */
+type Outcome = 'saved' | 'refused' | 'overtaken';
+
 /** The feature points of the open head: the draft, the selected point, and the server's errors by point. */
 export class PointsModel {
   readonly draft = new PointDraft();
@@ -23,6 +26,7 @@ export class PointsModel {
   problems: ReadonlyMap<string, readonly string[]> = new Map();
   /** Whether guided mode leads the user through the quick set. */
   readonly guided = new Signal(true);
+  private disputed: readonly string[] = [];
   /** The reasons why points could not be proposed, by id; of the last proposal job. */
   notProposed: ReadonlyMap<string, string> = new Map();
   /** Units set by hand, lengths in model units by name; the server keeps them when points are saved. */
@@ -52,12 +56,13 @@ export class PointsModel {
 
   async open(model: Model | null): Promise<void> {
     this.model = model;
-    this.axes = JSON.stringify(model?.frame?.axes ?? null);
+    this.axes = axesOf(model);
     this.opened = false;
     this.chosen.set(null);
     this.clearProblems();
     this.draft.reset([]);
     this.notProposed = new Map();
+    this.disputed = [];
     this.fapu = {};
     this.guidedByUser = false;
     this.etag = null;
@@ -69,6 +74,61 @@ export class PointsModel {
     });
     // Without the server's points the kept ones are shown all the same.
     if (this.model === model) this.bringBack(model.id);
+  }
+
+  /**
+   * Takes what someone else has saved since the points were read, and says so. Unsaved changes stay; a point that has been changed on
+   * both sides is `contested` until it is decided.
+   */
+  async update(model: Model): Promise<void> {
+    if (this.model?.id !== model.id || !this.opened) return;
+    if (this.axes !== axesOf(model)) return this.open(model); // the positions are others now
+    // A request of this page that is under way brings the newest points itself, or is refused.
+    if (!this.busy.value) await this.takeNewer(model.id);
+  }
+
+  private async takeNewer(head: string): Promise<void> {
+    const { etag: known } = this;
+    await this.studio.attempt(t('The feature points could not be read'), async () => {
+      const { value, etag } = await this.studio.api.getFeaturePoints(head);
+      // What this page has saved meanwhile is as new.
+      if (this.model?.id !== head || etag === known || this.etag !== known) return;
+      const { changed, contested } = this.draft.rebase(this.placedOf(value));
+      const unitsChanged = JSON.stringify(this.fapu) !== JSON.stringify(value.fapu);
+      this.fapu = value.fapu;
+      this.etag = etag;
+      this.disputed = [...new Set([...this.contested, ...contested])];
+      for (const id of changed) this.forgive(id);
+      this.touch();
+      if (known !== null) this.tellOf(changed.length, unitsChanged);
+    });
+  }
+
+  private tellOf(changed: number, unitsChanged: boolean): void {
+    const { toasts, tab } = this.studio;
+    if (this.contested.length > 0)
+      toasts.say(t('Someone else changed points that you have changed too.'), { label: t('Choose'), act: () => tab.set('points') });
+    else if (changed > 0 && this.draft.changes > 0)
+      toasts.say(
+        changed === 1
+          ? t('Someone else changed 1 point. Your unsaved changes are kept.')
+          : t('Someone else changed {changed} points. Your unsaved changes are kept.', { changed }),
+      );
+    else if (changed > 0)
+      toasts.say(changed === 1 ? t('Someone else changed 1 point.') : t('Someone else changed {changed} points.', { changed }));
+    else if (unitsChanged) toasts.say(t('Someone else changed the units of the face.'));
+  }
+
+  /** The points that someone else has changed while they had unsaved changes here, which are shown. */
+  get contested(): string[] {
+    return this.disputed.filter((id) => this.draft.isChanged(id));
+  }
+
+  /** Decides about the contested points: `theirs` replace the own ones, as a step that can be undone, or the own ones stay, to be saved. */
+  settle(theirs: boolean): void {
+    if (theirs) this.draft.takeSaved(this.contested);
+    this.disputed = [];
+    this.touch();
   }
 
   /** Takes the unsaved changes of an earlier visit into the draft, as a step that can be undone. */
@@ -228,7 +288,7 @@ export class PointsModel {
     if (!model || (this.draft.changes > 0 && !(await this.save()))) return;
     this.busy.set(true);
     await studio.attempt(t('No points were proposed'), async () => {
-      const result = await studio.propose(model, this.etag);
+      const result = await this.unlessOvertaken(model, studio.propose(model, this.etag));
       if (result === null || this.model?.id !== model.id) return;
       const answer = await studio.api.getFeaturePoints(model.id);
       this.notProposed = new Map(Object.entries(result.not_proposed));
@@ -242,12 +302,18 @@ export class PointsModel {
     this.touch();
   }
 
-  save(mirror = false): Promise<boolean> {
-    return this.send(
-      this.draft.toBody(),
-      mirror ? t('The missing sides were not filled in') : t('The feature points were not saved'),
-      { mirror, guarded: true },
-    );
+  /** When someone else has saved meanwhile, both changes are saved, unless they are of the same point. */
+  async save(mirror = false): Promise<boolean> {
+    const failure = mirror ? t('The missing sides were not filled in') : t('The feature points were not saved');
+    const send = (): Promise<Outcome> => this.send(this.draft.toBody(), failure, mirror);
+    let outcome = await send();
+    if (outcome === 'overtaken' && this.contested.length === 0) outcome = await send();
+    if (outcome === 'overtaken') this.sayOvertaken(failure);
+    return outcome === 'saved';
+  }
+
+  private sayOvertaken(failure: string): void {
+    this.studio.toasts.problem(failure, { type: 'about:blank', title: t('Someone else has saved points meanwhile.'), status: 412 });
   }
 
   /** Gives a unit (FAPU) by hand, a length in model units; null: it is measured again. Unsaved points stay as they are. */
@@ -257,7 +323,7 @@ export class PointsModel {
     this.busy.set(true);
     const done = await this.studio.attempt(t('The unit was not changed'), async () => {
       const body = { points: {}, fapu: { [unit]: length } };
-      const answer = await this.studio.api.patchFeaturePoints(model.id, body, this.etag);
+      const answer = await this.unlessOvertaken(model, this.studio.api.patchFeaturePoints(model.id, body, this.etag));
       if (this.model?.id !== model.id) return;
       this.fapu = answer.value.fapu;
       this.etag = answer.etag;
@@ -277,13 +343,15 @@ export class PointsModel {
       return false;
     }
     const back = this.wayBack();
-    const done = await this.send(body, t('The points of {name} were not accepted', { name: file.name }), { mirror: false, guarded: true });
-    if (done)
+    const failure = t('The points of {name} were not accepted', { name: file.name });
+    const outcome = await this.send(body, failure);
+    if (outcome === 'overtaken') this.sayOvertaken(failure);
+    if (outcome === 'saved')
       this.studio.toasts.say(t('{count} feature points read from {name}.', { count: this.draft.points.size, name: file.name }), {
         label: t('Undo'),
         act: back,
       });
-    return done;
+    return outcome === 'saved';
   }
 
   exportFile(): void {
@@ -324,41 +392,42 @@ export class PointsModel {
     this.touch();
   }
 
-  private async send(body: FeaturePointsBody, failure: string, options: { mirror: boolean; guarded: boolean }): Promise<boolean> {
+  private async send(body: FeaturePointsBody, failure: string, mirror = false): Promise<Outcome> {
     const model = this.model;
-    if (!model) return false;
+    if (!model) return 'refused';
     this.busy.set(true);
     try {
-      const answer = await this.studio.api.putFeaturePoints(model.id, body, {
-        etag: options.guarded ? this.etag : null,
-        mirror: options.mirror,
-      });
+      const answer = await this.unlessOvertaken(model, this.studio.api.putFeaturePoints(model.id, body, { etag: this.etag, mirror }));
       this.clearProblems();
       this.take(answer.value, answer.etag);
       await this.studio.reload(model.id);
-      return true;
+      return 'saved';
     } catch (error) {
+      if (isOvertaken(error)) return 'overtaken';
       this.show(error);
       const named = [...this.problems.keys()].some((id) => id !== '');
       if (!(error instanceof ApiError) || !named) this.studio.toasts.problem(failure, problemOf(error));
-      return false;
+      return 'refused';
     } finally {
       this.busy.set(false);
     }
   }
 
+  /** Waits for a request that the server refuses when its points are newer than those of this page; then takes the newer ones and throws. */
+  private async unlessOvertaken<T>(model: Model, request: Promise<T>): Promise<T> {
+    try {
+      return await request;
+    } catch (error) {
+      if (isOvertaken(error)) await this.takeNewer(model.id);
+      throw error;
+    }
+  }
+
   /** `fresh`: of a head that has just been opened; otherwise what was done before can be undone. */
   private take(set: FeaturePointSet, etag: string | null, fresh = false): void {
-    const placed: [string, PlacedPoint][] = [];
-    for (const [id, value] of Object.entries(set.points)) {
-      const { vertex } = value;
-      const position = value.position ?? (vertex === null ? null : this.positionOf(vertex));
-      if (!position) continue;
-      const { method = null, confidence = null, expected_error: expectedError = null, remark } = value;
-      const proposal = { method, confidence, expectedError, ...(remark === undefined ? {} : { remark }) };
-      placed.push([id, { vertex, position, ...(value.proposed ? { proposal } : {}) }]);
-    }
+    const placed = this.placedOf(set);
     this.fapu = set.fapu;
+    this.disputed = [];
     if (fresh) this.draft.reset(placed);
     else this.draft.accept(placed);
     // With points beyond the quick set, or with proposals to review, the user needs the whole list.
@@ -368,6 +437,19 @@ export class PointsModel {
     }
     this.etag = etag;
     this.touch();
+  }
+
+  private placedOf(set: FeaturePointSet): [string, PlacedPoint][] {
+    const placed: [string, PlacedPoint][] = [];
+    for (const [id, value] of Object.entries(set.points)) {
+      const { vertex } = value;
+      const position = value.position ?? (vertex === null ? null : this.positionOf(vertex));
+      if (!position) continue;
+      const { method = null, confidence = null, expected_error: expectedError = null, remark } = value;
+      const proposal = { method, confidence, expectedError, ...(remark === undefined ? {} : { remark }) };
+      placed.push([id, { vertex, position, ...(value.proposed ? { proposal } : {}) }]);
+    }
+    return placed;
   }
 
   private forgive(id: string): void {
@@ -391,3 +473,7 @@ export class PointsModel {
     this.changed.set(this.changed.value + 1);
   }
 }
+
+const axesOf = (model: Model | null): string => JSON.stringify(model?.frame?.axes ?? null);
+
+const isOvertaken = (error: unknown): boolean => error instanceof ApiError && error.problem.status === 412;

@@ -152,6 +152,7 @@ export class PointsPanel {
       this.notices,
       general.map((text) => h('p', { class: 'notice error', role: 'alert' }, icon('warning', 16), text)),
       wrong.length > 0 ? this.refusal(wrong) : null,
+      this.dispute(),
     );
     const model = this.studio.selected.value;
     const usable = model !== null && (model.state === 'ready' || model.state === 'parametrized');
@@ -163,6 +164,31 @@ export class PointsPanel {
     const none: Idle | null = size > 0 ? null : { why: t('No point is placed yet.'), help: { label: t('Place the first'), act: () => this.points.chooseFirst() } };
     setIdle(this.mirror, t('Fill the missing side by mirroring'), none ?? (lacks ? null : { why: t('Every point has its other side already.') }));
     setIdle(this.download, t('Export points to a file'), none);
+  }
+
+  /** Whose change of a point stays, when someone else has changed it too. */
+  private dispute(): HTMLElement | null {
+    const { contested } = this.points;
+    if (contested.length === 0) return null;
+    const settle = (words: string, theirs: boolean): HTMLElement =>
+      h('button', { type: 'button', class: 'small', on: { click: () => this.points.settle(theirs) } }, words);
+    return h(
+      'div',
+      { class: 'notice error', role: 'alert' },
+      icon('warning', 16),
+      h(
+        'div',
+        {},
+        h(
+          'p',
+          {},
+          t('Someone else changed too: '),
+          contested.map((id) => h('button', { type: 'button', class: 'link', on: { click: () => this.points.chosen.set(id) } }, id)),
+          t('. Yours is shown.'),
+        ),
+        h('div', { class: 'row' }, settle(t('Take theirs'), true), settle(t('Keep mine'), false)),
+      ),
+    );
   }
 
   private refusal(wrong: readonly string[]): HTMLElement {

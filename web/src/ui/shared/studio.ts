@@ -29,6 +29,8 @@ export class Studio {
   readonly activities = new Signal<ReadonlyMap<string, Activity>>(new Map());
   /** Called when a head was deleted. */
   onRemoved: (id: string) => void = () => {};
+  /** Called when someone else has changed the open head. */
+  onChangedElsewhere: (model: Model) => void = () => {};
   private uploads = 0;
   /** Heads that this page is deleting now. */
   private readonly deleting = new Set<string>();
@@ -59,6 +61,7 @@ export class Studio {
   /** Takes in what others have uploaded, changed or deleted since the list was read. */
   async update(): Promise<void> {
     const { value: before } = this.models;
+    const { value: working } = this.activities;
     let listed: readonly Model[];
     try {
       listed = await this.api.listModels();
@@ -82,7 +85,11 @@ export class Studio {
       this.forget(open);
       this.toasts.say(t('{name} was deleted elsewhere.', { name: open.name }));
     } else if (now.updated !== open.updated || now.state !== open.state) {
-      void this.reload(open.id);
+      const model = await this.reload(open.id);
+      if (!model || this.selected.value?.id !== open.id || working.has(open.id)) return;
+      this.onChangedElsewhere(model);
+      if (model.package?.parametrization !== open.package?.parametrization)
+        this.toasts.say(t('{name} was parametrized elsewhere.', { name: model.name }));
     }
   }
 
