@@ -23,6 +23,7 @@ test.each([
   ['a coarse body', [skull(6), neck(), torso(), legs()]],
   ['a body with a bun of hair', [piece(new SphereGeometry(0.03, 16, 16), 1.76), skull(32), neck(), torso(), legs()]],
   ['a bust', [skull(32), neck(), torso()]],
+  ['a cartoon with a thick neck and sloping shoulders', [skull(32), piece(new CylinderGeometry(0.067, 0.067, 0.2, 24), 1.48), piece(new CylinderGeometry(0.067, 0.3, 0.35, 24), 1.265), legs()]],
   ['long hair', [skull(32), neck(), torso(), legs(), piece(new CylinderGeometry(0.085, 0.09, 0.34, 16), 1.58)]],
 ])('findHead_OfAStandingFigure_EndsAtTheNeck: %s', (_, pieces) => {
   const head = findHead(pieces)!;

@@ -13,7 +13,7 @@ export interface Piece {
 /** Slices of the height that the outline is measured in. */
 const slices = 200;
 /** The neck: this much narrower than the head above it. */
-const neckOfHead = 0.82;
+const neckOfHead = 0.85;
 /** The shoulders: this much wider than the head above them; hair down to the shoulders hides a neck. */
 const shouldersOfHead = 1.45;
 /** Height of a head with its neck, in widths of the head: outside of this range what was found is no head. */
