@@ -12,6 +12,7 @@ import { PointCard } from './point_card.ts';
 import { PointList } from './point_list.ts';
 import type { PointsModel } from './points_model.ts';
 import { ProposalsBox } from './proposals_box.ts';
+import { uprightBox } from './upright_box.ts';
 import type { Studio } from '../shared/studio.ts';
 import { t } from '../../words/words.ts';
 
@@ -80,6 +81,7 @@ export class PointsPanel {
         ),
       ),
       h('div', { class: 'meter' }, this.meter, this.count),
+      uprightBox(studio, points),
       this.guide.element,
       new PointCard(points).element,
       new ProposalsBox(studio, points).element,
