@@ -6,15 +6,18 @@ import { serviceWorker } from './service_worker.ts';
 
 const here = (path: string): string => fileURLToPath(new URL(path, import.meta.url));
 const library = process.env['SEMBLANTE_WASM'] ?? here('../build/wasm');
+const sample = process.env['SEMBLANTE_SAMPLE'] ?? here('../build/sample');
 const draco = here('node_modules/three/examples/jsm/libs/draco/gltf/');
 
-/** Files that are fetched at run time under a fixed name: the client library in its parts, and the Draco decoder. */
+/** Files that are fetched at run time under a fixed name: the client library in its parts, the Draco decoder, and the sample head. */
 const assets: Record<string, string> = {
   'semblante_view.wasm': `${library}/semblante_view.wasm`,
   'semblante_motion.wasm': `${library}/semblante_motion.wasm`,
   'semblante_listen.wasm': `${library}/semblante_listen.wasm`,
   'draco/draco_wasm_wrapper.js': draco + 'draco_wasm_wrapper.js',
   'draco/draco_decoder.wasm': draco + 'draco_decoder.wasm',
+  'sample/sample-head.glb': `${sample}/sample-head.glb`,
+  'sample/sample-head.fps.json': `${sample}/sample-head.fps.json`,
 };
 
 function runtimeAssets(): Plugin {
@@ -29,7 +32,7 @@ function runtimeAssets(): Plugin {
         }
         const file = assets[name];
         if (file === undefined || !existsSync(file)) return next();
-        response.setHeader('Content-Type', name.endsWith('.wasm') ? 'application/wasm' : 'text/javascript');
+        response.setHeader('Content-Type', name.endsWith('.wasm') ? 'application/wasm' : name.endsWith('.js') ? 'text/javascript' : 'application/octet-stream');
         response.end(readFileSync(file));
       });
     },
@@ -37,7 +40,11 @@ function runtimeAssets(): Plugin {
       for (const [fileName, file] of Object.entries(assets)) {
         if (!existsSync(file)) {
           const advice =
-            file.startsWith(library) ? ': build the target semblante-runtime-wasm, or set SEMBLANTE_WASM to its folder' : '';
+            file.startsWith(library)
+              ? ': build the target semblante-runtime-wasm, or set SEMBLANTE_WASM to its folder'
+              : file.startsWith(sample)
+                ? ': run build/bin/semblante-sample-head build/sample, or set SEMBLANTE_SAMPLE to its folder'
+                : '';
           this.error(`${fileName} is missing${advice}`);
         }
         this.emitFile({ type: 'asset', fileName, source: readFileSync(file) });

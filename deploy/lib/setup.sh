@@ -184,14 +184,14 @@ install_npm_packages() {
   fi
 }
 
-# build_web DIR: the studio's static files into web/dist, when their sources changed. DIR holds wasm/.
+# build_web DIR: the studio's static files into web/dist, when their sources changed. DIR holds wasm/ and sample/.
 build_web() {
   local build=$1 stamp
   install_npm_packages web "the studio"
-  stamp=$(stamp_of "$root/web" "$root/protocol/ts" "$root/clients/js" "$build/wasm")
+  stamp=$(stamp_of "$root/web" "$root/protocol/ts" "$root/clients/js" "$build/wasm" "$build/sample")
   if [ "$(cat "$root/web/dist/.stamp" 2>/dev/null)" != "$stamp" ]; then
     say "Building the studio"
-    (cd "$root/web" && SEMBLANTE_WASM="$build/wasm" npm run --silent build) || fail "the studio did not build"
+    (cd "$root/web" && SEMBLANTE_WASM="$build/wasm" SEMBLANTE_SAMPLE="$build/sample" npm run --silent build) || fail "the studio did not build"
     printf '%s' "$stamp" >"$root/web/dist/.stamp"
   fi
 }

@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { StudioPage } from './support/studio_page.ts';
+import { phone, StudioPage, type Inside } from './support/studio_page.ts';
 import { browser, server, useStudio } from './support/suite.ts';
 
 useStudio({ demo: false });
@@ -11,5 +11,36 @@ test('Studio_ServerWithoutADemo_WaitsForNoStream', async () => {
   await chip.getByText('By hand').waitFor();
   expect(await chip.getByRole('button').count()).toBe(0);
   expect(studio.errors).toEqual([]); // a request for a stream that is not there is one
+  await studio.close();
+});
+
+test('Studio_EmptyServer_OffersTheSampleAndLeadsToItsPlay', async () => {
+  await fetch(`${server.url}/v1/models/sample`, { method: 'DELETE' });
+  const studio = await StudioPage.open(browser, server.url, { width: 1280, height: 720, coarse: true });
+  const { page } = studio;
+  const done = (): Promise<number> => page.locator('.steps-list .done').count();
+  await page.getByText('No heads yet.').first().waitFor();
+  expect(await done()).toBe(0);
+  await studio.keep('empty-server');
+  await page.getByRole('button', { name: 'Try the sample head' }).click();
+  await studio.waitForState('parametrized');
+  await studio.waitForStage('ready');
+  await page.locator('#tab-animate[aria-selected=true]').waitFor();
+  expect(await done()).toBe(3);
+  await page.getByRole('button', { name: 'Play a minute' }).click();
+  await page.getByRole('button', { name: 'Pause the example' }).waitFor();
+  expect(await page.evaluate(() => (window as unknown as Inside).semblante.driver.source.value)).toBe('clip');
+  expect(await done()).toBe(4);
+  await studio.keep('example-plays');
+  await page.getByRole('button', { name: 'Pause the example' }).click();
+  await page.getByRole('button', { name: 'Play a minute' }).waitFor();
+
+  // On a phone it stands above the panel, until all is done.
+  const small = await StudioPage.open(browser, server.url, phone);
+  await small.waitForStage('ready');
+  await small.page.getByRole('button', { name: 'Play a minute' }).waitFor();
+  await small.keep('steps-phone');
+  expect([...studio.errors, ...small.errors]).toEqual([]);
+  await small.close();
   await studio.close();
 });

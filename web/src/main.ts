@@ -53,6 +53,8 @@ import { SceneView } from './ui/stage/scene.ts';
 import { letIn, signOutButton } from './ui/page/sign_in.ts';
 import { Shelf } from './ui/heads/shelf.ts';
 import { offlineNote } from './ui/page/offline_note.ts';
+import { addSampleHead } from './ui/page/sample_head.ts';
+import { stepsBox } from './ui/page/steps.ts';
 import { progressSaid } from './ui/page/progress_said.ts';
 import { StagePanel } from './ui/page/stage_panel.ts';
 import { MicrophoneModel } from './ui/speak/microphone_model.ts';
@@ -189,6 +191,9 @@ function main(root: HTMLElement, session: Session | null, theme: HTMLElement): v
     driver.setFace(performer);
   });
   stagePanel.onUpload = shelf.choose;
+  stagePanel.onSample = () => void addSampleHead(studio, points, parametrizer);
+  const example = { playing: clip.examplePlays, toggle: () => void clip.toggleExample() };
+  stepsBox({ studio, upload: shelf.choose, example, driver }, shelf.element, animate.element);
   stagePanel.onPart = (part) => fitPanel.revealPart(part);
   pointOutFindings(studio, fit, points, scene);
   flyToPoints(studio, points, scene);
@@ -197,11 +202,14 @@ function main(root: HTMLElement, session: Session | null, theme: HTMLElement): v
   showSelected(studio, points, scene);
   hideParts(canvas, scene, studio, hidden);
   takeThumbnails(studio, scene, shelf);
-  // The first head is what is kept first; the development server's pages change all the time.
-  const kept = scene.state.watch(({ kind }) => {
-    if (kind !== 'ready' || !import.meta.env.PROD) return;
-    keepOffline();
-    queueMicrotask(() => kept());
+  const shown = scene.state.watch(({ kind }) => {
+    if (kind !== 'ready') return;
+    queueMicrotask(() => shown());
+    // The first head is what is kept first; the development server's pages change all the time.
+    if (import.meta.env.PROD) keepOffline();
+    // Without a stream that moves the first face it lives by itself, where motion is welcome.
+    const isStill = driver.source.value === 'hand' && live.following.value === null;
+    if (isStill && scene.faceShown.value && !matchMedia('(prefers-reduced-motion: reduce)').matches) animate.enliven();
   });
   routeDrops(layout, { studio, points: pointsPanel, performance, clip, speak });
   startPolling({ studio, scene, live, livePanel, overlay, recordings, performance, clip });

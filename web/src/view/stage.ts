@@ -166,8 +166,8 @@ export class Stage {
     this.invalidate();
   }
 
-  /** Fits camera and lights to an object, or to the head that is a part of it, and shows the front. */
-  frameObject(object: Object3D, head: Box | null): void {
+  /** Fits camera and lights to an object, or to the head that is a part of it, and shows it from this side. */
+  frameObject(object: Object3D, head: Box | null, view: ViewName): void {
     const whole = new Box3().setFromObject(object);
     if (whole.isEmpty()) return;
     const box = head ? new Box3(new Vector3(...head.min), new Vector3(...head.max)) : whole;
@@ -179,7 +179,7 @@ export class Stage {
     this.controls.minDistance = this.radius * 0.3;
     this.controls.maxDistance = reach * 14;
     this.placeLights();
-    this.look('front', true);
+    this.look(view, true);
   }
 
   /** What is framed: the height of its middle, and half its size, model units. */
@@ -188,14 +188,14 @@ export class Stage {
   }
 
   /** From now on shows this part of the framed object as the head. */
-  frameHead({ min, max }: Box): void {
+  frameHead({ min, max }: Box, view: ViewName): void {
     const box = new Box3(new Vector3(...min), new Vector3(...max));
     box.getCenter(this.center);
     this.radius = radiusOf(box);
     this.camera.near = this.radius / 50;
     this.controls.minDistance = this.radius * 0.3;
     this.placeLights();
-    this.look('front');
+    this.look(view);
   }
 
   /** Shows the whole face again, from where the camera is. */

@@ -54,6 +54,7 @@ export class AnimatePanel {
   private readonly feelings: { slider: Slider; row: HTMLElement; button: HTMLButtonElement }[] = [];
   private readonly faps: FapSliders;
   private readonly resetAll: HTMLButtonElement;
+  private readonly idle = h('input', { type: 'checkbox', role: 'switch', id: 'idle-life' });
   private viseme = 0;
   private blinking = false;
 
@@ -168,8 +169,13 @@ export class AnimatePanel {
     this.changed();
   }
 
+  /** Switches idle life on, as the switch does. */
+  enliven(): void {
+    if (!this.idle.checked) this.idle.click();
+  }
+
   private makeIdle(): HTMLElement {
-    const box = h('input', { type: 'checkbox', role: 'switch', id: 'idle-life' });
+    const box = this.idle;
     const note = h('small', { class: 'muted' }, idleNote);
     box.addEventListener('change', () => {
       setText(note, idleNote);

@@ -4,6 +4,7 @@ import type { ClipPlayer } from '../../face/clip.ts';
 import { emptyDocument, type CueDocument } from '../../face/cue_sheet.ts';
 import { clipOf, readClipFile, type ClipFile } from '../../face/clip_file.ts';
 import { absentChoice, type Absent } from '../documents/absent_choice.ts';
+import { bestExample } from '../documents/examples.ts';
 import { excerptAt } from '../documents/document_place.ts';
 import { h, redraw, replace, setText } from '../shared/dom.ts';
 import { exampleSelect } from '../documents/example_select.ts';
@@ -26,6 +27,8 @@ export class ClipPanel {
   readonly element: HTMLElement;
   /** The playback state as text; null while another source drives the face. */
   readonly shown = new Signal<string | null>(null);
+  /** Whether the best of the examples moves the face now. */
+  readonly examplePlays = new Signal(false);
   private readonly body = h('div', { class: 'clip-body' });
   private readonly clock = h('span', { class: 'number' });
   private readonly seek = h('input', { type: 'range', class: 'progress', min: 0, step: 1, 'aria-label': t('Position') });
@@ -86,6 +89,12 @@ export class ClipPanel {
   async takeFile(file: File): Promise<void> {
     await this.take(file.name, await file.text());
     this.element.scrollIntoView({ block: 'nearest' });
+  }
+
+  /** Plays the best of the examples from its start, or pauses it and plays it on. */
+  async toggleExample(): Promise<void> {
+    if (this.file?.name === bestExample.name && this.driver.source.value === 'clip') return this.toggle();
+    await this.take(bestExample.name, await bestExample.text());
   }
 
   /** Call a few times a second. */
@@ -164,7 +173,9 @@ export class ClipPanel {
   private tell(): void {
     const { file, player, driver } = this;
     const words = player.playing ? t('Playing {name}', { name: file?.name ?? '' }) : t('{name}, paused', { name: file?.name ?? '' });
-    this.shown.set(file && driver.source.value === 'clip' ? words : null);
+    const drives = file !== null && driver.source.value === 'clip';
+    this.shown.set(drives ? words : null);
+    this.examplePlays.set(drives && player.playing && file.name === bestExample.name);
   }
 
   private draw(): void {

@@ -18,6 +18,8 @@ export interface OverlayFacts {
   heads: boolean;
   reload: () => void;
   upload: () => void;
+  /** Adds the sample head. */
+  addSample: () => void;
 }
 
 /** The card over the stage while no head is shown. */
@@ -37,7 +39,7 @@ export function overlayCard(state: SceneState, facts: OverlayFacts): HTMLElement
   }
 }
 
-function invitation({ heads, upload }: OverlayFacts): HTMLElement {
+function invitation({ heads, upload, addSample }: OverlayFacts): HTMLElement {
   const words = heads
     ? t('Choose one from the list, or drop a file ({formatList}) anywhere on this page.', { formatList })
     : t('Drop a file ({formatList}) anywhere on this page. Then place its points and press a button, and it talks.', {
@@ -49,7 +51,12 @@ function invitation({ heads, upload }: OverlayFacts): HTMLElement {
     icon('head', 40),
     h('h2', {}, heads ? t('No head on the stage') : t('No heads yet.')),
     h('p', {}, words),
-    h('button', { type: 'button', class: heads ? '' : 'primary', on: { click: upload } }, t('Upload a head')),
+    h(
+      'div',
+      { class: 'row wrap' },
+      h('button', { type: 'button', class: heads ? '' : 'primary', on: { click: upload } }, t('Upload a head')),
+      heads ? null : h('button', { type: 'button', on: { click: addSample } }, t('Try the sample head')),
+    ),
   );
 }
 

@@ -38,6 +38,8 @@ export class StagePanel {
   private down: { x: number; y: number; time: number } | null = null;
   /** Called when a head is to be uploaded. */
   onUpload: () => void = () => {};
+  /** Called when the sample head is to be added. */
+  onSample: () => void = () => {};
   /** Called when a part is clicked while parts can be selected. */
   onPart: (part: number) => void = () => {};
 
@@ -261,6 +263,7 @@ export class StagePanel {
         heads: this.studio.models.value.length > 0,
         reload: () => location.reload(),
         upload: () => this.onUpload(),
+        addSample: () => this.onSample(),
       }),
     );
   }

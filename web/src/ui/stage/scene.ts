@@ -14,7 +14,7 @@ import { framedHead, headOfPoints } from '../../view/head_box.ts';
 import { Markers, type Marker } from '../../view/markers.ts';
 import { PreviewView } from '../../view/preview_view.ts';
 import { chooseQuality, type Quality } from '../../view/quality.ts';
-import { Stage } from '../../view/stage.ts';
+import { Stage, type ViewName } from '../../view/stage.ts';
 import { Signal } from '../shared/signal.ts';
 import { t } from '../../words/words.ts';
 
@@ -322,22 +322,24 @@ export class SceneView {
       this.setPerformer(null);
     }
     this.wireframe = this.wire;
+    // A face is best known in three quarters; points are placed from in front.
+    const view = face && this.wanted === 'face' ? 'three-quarter' : 'front';
     if (another && preview) {
       const roles = new Map(model.parts.map(({ index, role }) => [index, role]));
-      this.stage.frameObject(preview.object, preview.head((part) => roles.get(part) ?? null));
+      this.stage.frameObject(preview.object, preview.head((part) => roles.get(part) ?? null), view);
     } else if (another && face) {
       const { positions, indices } = face.view.mesh;
-      this.stage.frameObject(face.view.object, framedHead([{ positions, triangles: indices }]));
+      this.stage.frameObject(face.view.object, framedHead([{ positions, triangles: indices }]), view);
     }
     this.framed = key;
-    if (this.rig) this.frameByPoints(this.rig.feature_points.map(({ position }) => position));
+    if (this.rig) this.frameByPoints(this.rig.feature_points.map(({ position }) => position), another ? view : 'front');
     this.show(this.wanted);
   }
 
   /** Goes to the head that the feature points tell, where the outline of the figure did not tell it. */
-  frameByPoints(positions: readonly (readonly [number, number, number])[]): void {
+  frameByPoints(positions: readonly (readonly [number, number, number])[], view: ViewName = 'front'): void {
     const head = headOfPoints(positions, this.stage.framed);
-    if (head) this.stage.frameHead(head);
+    if (head) this.stage.frameHead(head, view);
   }
 
   /** Whether FAP 3 alone takes the lower lip along, on this face and those to come. */
