@@ -33,6 +33,13 @@ test.each([
   expect(head.max[0] - head.min[0]).toBeLessThan(0.3);
 });
 
+test('findHead_FaceAsNarrowAsItsThickNeck_IsInIt', () => {
+  // A cartoon: ears at 1.65, and a muzzle below them that is as wide as the neck.
+  const muzzle = piece(new CylinderGeometry(0.067, 0.067, 0.2, 24), 1.5);
+  const shoulders = piece(new CylinderGeometry(0.067, 0.3, 0.2, 24), 1.3);
+  expect(findHead([skull(32), muzzle, shoulders, legs()])!.min[1]).toBeCloseTo(1.4, 2);
+});
+
 test('findHead_WhereAllIsTheHead_FindsNone', () => {
   expect(findHead([skull(32)])).toBeNull();
   expect(findHead([skull(32), neck()])).toBeNull();
@@ -83,8 +90,8 @@ const framed = (radius: number): { height: number; radius: number } => ({ height
 test('headOfPoints_FigureWhoseOutlineShowsNoHead_IsAroundThePoints', () => {
   const body = { height: 0.88, radius: 0.88 };
   const head = headOfPoints(pointsUpTo(1.75, 60), body)!;
-  expect(head.min[1]).toBeCloseTo(1.54 - 0.15 * 0.21);
-  expect(head.max[1]).toBeCloseTo(1.75 + 0.15 * 0.21);
+  expect(head.min[1]).toBeCloseTo(1.54 - 0.08 * 0.21);
+  expect(head.max[1]).toBeCloseTo(1.75 + 0.08 * 0.21);
   const face = headOfPoints(pointsUpTo(1.66, 10), body)!;
   expect(face.min[1]).toBeLessThan(1.48);
   expect(face.max[1]).toBeGreaterThan(1.72);

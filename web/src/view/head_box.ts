@@ -14,6 +14,9 @@ export interface Piece {
 const slices = 200;
 /** The neck: this much narrower than the head above it. */
 const neckOfHead = 0.85;
+/** A neck hardly narrower than the head may be a part of the face, above the mouth: such a head ends at the foot of it. */
+const thickNeck = 0.75;
+const aboutAsNarrow = 1.03;
 /** The shoulders: this much wider than the head above them; hair down to the shoulders hides a neck. */
 const shouldersOfHead = 1.45;
 /** Height of a head with its neck, in widths of the head: outside of this range what was found is no head. */
@@ -37,6 +40,7 @@ export function findHead(pieces: readonly Piece[]): Box | null {
   let head = 0; // the greatest width so far
   let neck = -1; // the narrowest slice below it
   let neckWidth = Infinity;
+  let foot = -1; // the lowest slice that is about as narrow
   for (let slice = 0; slice < slices; slice += 1) {
     const width = widths[slice]!;
     if (width === 0) continue;
@@ -49,7 +53,8 @@ export function findHead(pieces: readonly Piece[]): Box | null {
         : width > shouldersOfHead * head && fromTop >= (leastHeight * width) / shouldersOfHead;
     if (isLikeAHead && areShoulders) {
       if (fromTop > mostHeight * head) return null;
-      const end = top - ((neck >= 0 ? neck + 1 : slice) / slices) * height;
+      const cut = neck < 0 ? slice : (neckWidth > thickNeck * head ? foot : neck) + 1;
+      const end = top - (cut / slices) * height;
       if (top - end >= leastShare * height) {
         const box = boxOf(pieces, end);
         box.min[1] = end; // where the mesh is coarse, its lowest vertex above the cut is far away
@@ -63,6 +68,7 @@ export function findHead(pieces: readonly Piece[]): Box | null {
       neck = slice;
       neckWidth = width;
     }
+    if (neck >= 0 && width <= neckWidth * aboutAsNarrow) foot = slice;
     if (neck < 0) head = Math.max(head, width);
   }
   return null;
@@ -119,7 +125,7 @@ const fewestPoints = 8;
 /** What is framed may be so many times as large as the feature points: more is a body whose head the outline did not show. */
 const roomAround = { skull: 1.8, face: 3 };
 /** Room around the feature points, as a share of their height. */
-const aroundPoints = { skull: 0.15, face: 0.6 };
+const aroundPoints = { skull: 0.08, face: 0.6 };
 
 /**
  * The head by its feature points, where what is framed (its height, and half its size: `radius`) is much larger than a head around them

@@ -19,6 +19,7 @@ import { disposeMaterials } from './dispose_materials.ts';
 import { pickThrough, type Meeting } from './pick_through.ts';
 import { framedHead, type Box, type Piece } from './head_box.ts';
 import { meantCorner, moveToEdge } from './triangle_place.ts';
+import { outwardAt } from './outward.ts';
 
 /** A place on the surface: a vertex of the file, by number, or a place between vertices, with null. */
 export interface SurfacePlace {
@@ -274,6 +275,15 @@ export class PreviewView {
       }
     }
     return count > 0 ? sum.divideScalar(count) : sum;
+  }
+
+  /** Where the skin about a place of the surface looks; see `outwardAt`. */
+  outwardAt(place: Vector3, radius: number): Vector3 {
+    return outwardAt(
+      this.meshes.map(({ geometry }) => ({ positions: geometry.getAttribute('position'), normals: geometry.getAttribute('normal') })),
+      place,
+      radius,
+    );
   }
 
   /** The position of a vertex of the file, or null if no triangle uses it. */

@@ -1,3 +1,4 @@
+import type { ViewName } from '../../view/stage.ts';
 import { bestView } from '../points/guide_data.ts';
 import type { PointsModel } from '../points/points_model.ts';
 import type { Studio } from '../shared/studio.ts';
@@ -5,6 +6,13 @@ import type { SceneView } from '../stage/scene.ts';
 
 /** Half the height of the picture of a chosen point, in radii of the head. */
 const around = 0.5;
+
+/** The side of the head from which the place of a point is seen: ears and corners of the jaw are on one, odd numbers on the left. */
+export function sideOf(id: string): ViewName {
+  const [group, number] = id.split('.').map(Number) as [number, number];
+  if (group === 10 || (group === 2 && number >= 13)) return number % 2 === 1 ? 'left' : 'right';
+  return bestView(id) === 'side' ? 'left' : 'front';
+}
 
 /**
  * Brings the camera in front of each point that is chosen anywhere but on the head; for a point that is not placed yet, to the
@@ -15,9 +23,9 @@ export function flyToPoints(studio: Studio, points: PointsModel, scene: SceneVie
   const fly = (): void => {
     if (asked === null || studio.tab.value !== 'points' || scene.state.value.kind !== 'ready' || !points.opened) return;
     const place = points.draft.points.get(asked);
-    const side = bestView(asked) === 'side' ? 'left' : 'front';
+    const side = sideOf(asked);
     asked = null;
-    if (place) scene.flyTo([place.position], place.vertex === null ? [] : [place.vertex], scene.stage.headRadius * around);
+    if (place) scene.flyTo([place.position], [], scene.stage.headRadius * around);
     else scene.stage.lookFrom(side);
   };
   points.chosen.watch((id) => {
