@@ -4,6 +4,10 @@ import { browser, server, useStudio } from './support/suite.ts';
 
 useStudio();
 
+interface Point {
+  distanceTo(other: Point): number;
+}
+
 describe('animate', () => {
   test('FaceParameters_Search_ShowsTheMatchingOnesAndLeavesTheRestAsItWas', async () => {
     const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { width: 1280, height: 720 });
@@ -26,6 +30,49 @@ describe('animate', () => {
     expect(await groups.count()).toBe(all);
     // Groups that the search opened are closed again; a group that the user opened stays open.
     expect(await page.locator('.fap-group[open]').evaluateAll((open) => open.map((one) => (one as HTMLElement).dataset['group']))).toEqual(['7']);
+    expect(studio.errors).toEqual([]);
+    await studio.close();
+  });
+
+  test('RecordByHand_SlidersThatAreMoved_PlayAndLoopAsAFile', async () => {
+    const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { width: 1280, height: 720, coarse: true });
+    const { page } = studio;
+    await studio.waitForStage('ready');
+    await page.getByRole('button', { name: 'Record by hand' }).click();
+    await page.locator('[data-viseme="10"]').click();
+    await page.getByRole('button', { name: /^Stop, 0:01/ }).waitFor();
+    await page.locator('[data-viseme="1"]').click();
+    await page.getByRole('button', { name: /^Stop, 0:02/ }).click();
+    await page.locator('.clip').getByText('by hand.fap').waitFor();
+    const visemes = await page.evaluate(() => {
+      const { clip } = (window as unknown as { semblante: { driver: { clip: { clip: { frames: { time: number; state: { viseme: { select1: number } } }[] } } } } }).semblante.driver;
+      return clip.clip.frames.map(({ state }) => state.viseme.select1);
+    });
+    expect(visemes.length).toBeGreaterThan(48); // two seconds and more, 25 a second
+    expect(visemes.filter((one) => one === 10).length).toBeGreaterThan(5);
+    expect(visemes.at(-1)).toBe(1);
+    await page.getByRole('button', { name: 'Pause', exact: true }).waitFor();
+    expect(studio.errors).toEqual([]);
+    await studio.close();
+  });
+
+  test('DoubleClick_OnAFaceWhoseStillModelWasNeverLoaded_GoesNearer', async () => {
+    const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { width: 1280, height: 720, coarse: true });
+    const { page } = studio;
+    await studio.waitForStage('ready');
+    const distance = (): Promise<number> =>
+      page.evaluate(() => {
+        const { stage } = (window as unknown as { semblante: { scene: { stage: { camera: { position: Point }; controls: { target: Point } } } } }).semblante.scene;
+        return stage.camera.position.distanceTo(stage.controls.target);
+      });
+    const before = await distance();
+    const box = (await page.locator('canvas.canvas').boundingBox())!;
+    await page.mouse.dblclick(box.x + box.width / 2, box.y + box.height / 2);
+    expect(await distance()).toBeLessThan(before * 0.6);
+    // Beside the head there is nothing to go to; the whole face comes back by its key.
+    await page.locator('canvas.canvas').press('f');
+    await page.mouse.dblclick(box.x + 4, box.y + box.height / 2);
+    expect(await distance()).toBeCloseTo(before, 2);
     expect(studio.errors).toEqual([]);
     await studio.close();
   });

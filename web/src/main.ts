@@ -12,6 +12,7 @@ import { ComparePanel } from './ui/compare/compare_panel.ts';
 import { ClipPanel } from './ui/animate/clip_panel.ts';
 import { browserStorage, DraftStore } from './ui/points/draft_store.ts';
 import { exportButtons } from './ui/export/export_buttons.ts';
+import { handRecorderButton } from './ui/animate/hand_recorder.ts';
 import { h } from './ui/shared/dom.ts';
 import { HiddenParts } from './ui/points/hidden_parts.ts';
 import { hideParts } from './ui/page/part_hiding.ts';
@@ -109,7 +110,10 @@ function main(root: HTMLElement, session: Session | null, theme: HTMLElement): v
   const animate = new AnimatePanel({
     frame,
     toasts,
-    exports: [codeButton(studio, live, driver), ...exportButtons({ studio, scene, driver, sound, streamed: liveSound.output, load: loadLibrary, save: saveFile })],
+    exports: [
+      handRecorderButton({ studio, driver, faceShown: scene.faceShown, load: loadLibrary, take: (file) => clip.takeFile(file) }),
+      codeButton(studio, live, driver), ...exportButtons({ studio, scene, driver, sound, streamed: liveSound.output, load: loadLibrary, save: saveFile }),
+    ],
     views: [
       new InfluencePanel(influence, scene).element,
       new UnitsPanel(scene, points, studio, parametrizer).element,

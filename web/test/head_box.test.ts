@@ -40,6 +40,14 @@ test('findHead_FaceAsNarrowAsItsThickNeck_IsInIt', () => {
   expect(findHead([skull(32), muzzle, shoulders, legs()])!.min[1]).toBeCloseTo(1.4, 2);
 });
 
+test('framedHead_CollarAboveTheChin_HasTheChinInIt', () => {
+  const bent = [skull(32), piece(new BoxGeometry(0.14, 0.06, 0.2), 1.585), piece(new CylinderGeometry(0.13, 0.2, 0.4, 24), 1.37), torso()];
+  const cut = findHead(bent)!;
+  const shown = framedHead(bent)!;
+  expect(cut.min[1]).toBeGreaterThan(1.54); // above the chin, at 1.52
+  expect(shown.min[1]).toBeLessThan(1.53);
+});
+
 test('findHead_WhereAllIsTheHead_FindsNone', () => {
   expect(findHead([skull(32)])).toBeNull();
   expect(findHead([skull(32), neck()])).toBeNull();

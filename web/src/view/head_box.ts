@@ -77,16 +77,21 @@ export function findHead(pieces: readonly Piece[]): Box | null {
 /** Room below the chin, as a share of the head's height. */
 const belowChin = 0.08;
 
+/** A head with its chin is at least so many times as high as it is wide; a collar may rise above the chin of a bent head. */
+const leastFramed = 1.35;
+
 /**
- * The head as the camera shows it, with room below the chin; null where all of it is the head. `eyeballs`: the meshes of both eyes,
- * where the model has them apart from its skin.
+ * The head as the camera shows it, with its chin and room below it; null where all of it is the head. `eyeballs`: the meshes of both
+ * eyes, where the model has them apart from its skin.
  */
 export function framedHead(pieces: readonly Piece[], eyeballs: readonly [Piece, Piece] | null = null): Box | null {
   const found = findHead(pieces);
   const eyes = eyeballs?.map((ball) => boxOf([ball], -Infinity)) as [Box, Box] | undefined;
-  const all = boxOf(pieces, -Infinity);
-  if (eyes && !(found && eyes.every((eye) => middleOf(eye, 1) > found.min[1]))) return headOfEyes(eyes, all);
-  if (found) found.min[1] -= belowChin * (found.max[1] - found.min[1]);
+  if (eyes && !(found && eyes.every((eye) => middleOf(eye, 1) > found.min[1]))) return headOfEyes(eyes, boxOf(pieces, -Infinity));
+  if (!found) return null;
+  const { min, max } = found;
+  const height = Math.max(max[1] - min[1], leastFramed * (max[0] - min[0]));
+  min[1] = max[1] - height * (1 + belowChin);
   return found;
 }
 

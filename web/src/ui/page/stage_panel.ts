@@ -166,9 +166,8 @@ export class StagePanel {
   private focus(event: MouseEvent): void {
     if (this.studio.tab.value === 'points' && this.points.chosen.value !== null) return;
     const { x, y, width, height } = this.place(event);
-    const { stage, preview } = this.scene;
-    const pick = preview?.pick((x / width) * 2 - 1, 1 - (y / height) * 2, stage.camera);
-    if (pick) stage.focus(pick.position);
+    const place = this.scene.surfaceAt((x / width) * 2 - 1, 1 - (y / height) * 2);
+    if (place) this.scene.stage.focus(place);
   }
 
   /** Places the selected point on the head at `x`, `y` (normalized device coordinates, -1..1 from the lower left). */
@@ -199,12 +198,12 @@ export class StagePanel {
   }
 
   private key(event: KeyboardEvent): void {
-    const { stage, preview } = this.scene;
+    const { stage } = this.scene;
     const chosen = this.points.chosen.value;
     const pan = event.repeat ? heldPan : onePan;
     const move = (right: number, up: number): void =>
       event.shiftKey ? stage.pan(right * pan, up * pan) : stage.orbit(right * 0.12, -up * 0.12);
-    const zoom = (factor: number): void => stage.zoom(factor, preview?.pick(0, 0, stage.camera)?.position ?? null);
+    const zoom = (factor: number): void => stage.zoom(factor, this.scene.surfaceAt(0, 0));
     const actions: Record<string, () => void> = {
       ArrowLeft: () => move(-1, 0),
       ArrowRight: () => move(1, 0),

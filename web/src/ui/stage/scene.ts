@@ -1,5 +1,6 @@
 import { Vector3 } from 'three';
 import type { LoadedFace } from '../../face/loaded_face.ts';
+import { pickVertex } from '../../face/ray_pick.ts';
 import { Performer } from '../../face/performer.ts';
 import type { Model } from '../../net/types.ts';
 import { problemOf } from '../../net/problem.ts';
@@ -17,6 +18,9 @@ import { chooseQuality, type Quality } from '../../view/quality.ts';
 import { Stage, type ViewName } from '../../view/stage.ts';
 import { Signal } from '../shared/signal.ts';
 import { t } from '../../words/words.ts';
+
+/** The skin about a point whose direction tells from where the point is seen best, in radii of the head. */
+const aroundPoint = 0.15;
 
 export type SceneState =
   { kind: 'empty' } | { kind: 'loading'; title: string } | { kind: 'ready' } | { kind: 'failed'; problem: Problem };
@@ -174,7 +178,21 @@ export class SceneView {
   flyTo(places: readonly (readonly [number, number, number])[], vertices: readonly number[], least = 0): void {
     if (!this.preview || places.length === 0) return;
     const { center, radius } = ballAround(places.map((place) => new Vector3(...place)));
-    this.stage.lookAt(center, Math.max(radius * 1.3, least), this.preview.normalAt(vertices));
+    const outward =
+      places.length === 1 ? this.preview.outwardAt(center, this.stage.headRadius * aroundPoint) : this.preview.normalAt(vertices);
+    this.stage.lookAt(center, Math.max(radius * 1.3, least), outward);
+  }
+
+  /** The place of the shown surface at `x`, `y` (normalized device coordinates), of a face as it is moved now; null: none is there. */
+  surfaceAt(x: number, y: number): readonly [number, number, number] | null {
+    const performer = this.performer.value;
+    const { camera } = this.stage;
+    if (!this.faceShown.value || !this.face || !performer) return this.preview?.pick(x, y, camera)?.position ?? null;
+    const direction = new Vector3(x, y, 0.5).unproject(camera).sub(camera.position);
+    performer.kernel.deform(performer.poseNumber);
+    const { positions } = performer.kernel;
+    const vertex = pickVertex(positions, this.face.mesh.indices, Float64Array.of(...camera.position.toArray(), ...direction.toArray()));
+    return vertex < 0 ? null : [positions[vertex * 3]!, positions[vertex * 3 + 1]!, positions[vertex * 3 + 2]!];
   }
 
   set wireframe(on: boolean) {
