@@ -4,20 +4,46 @@ import { soundEndings } from '../speak/sound_files.ts';
 /** The receiver of a dropped file: the feature points, the Live tab (stream), the Animate tab (page), its Speak panel (speech) or the upload of heads. */
 export type DropPlace = 'points' | 'stream' | 'page' | 'speech' | 'heads';
 
+export type DroppedKind = 'points' | 'performance' | 'fap' | 'sound' | 'head';
+
 /** Larger JSON files are no points: there are 84 of them. Bytes. */
 const mostPoints = 1 << 20;
+/** What tells the kind of a file stands in its first bytes. */
+const startLength = 4096;
 
 /**
- * A file of feature points is one on every tab. Other documents go by the open tab; in tabs without a receiver, a performance goes to
- * `stream`, a .fap file to `page`.
+ * What a file is, by its content; by the ending of its name where the content does not tell: then whoever reads it says what is wrong
+ * with it.
  */
-export async function dropPlace(file: Pick<File, 'name' | 'size' | 'text'>, tab: Tab): Promise<DropPlace> {
+export async function kindOfFile(file: Pick<File, 'name' | 'size' | 'text' | 'slice'>): Promise<DroppedKind> {
   const name = file.name.toLowerCase();
-  if (soundEndings.some((ending) => name.endsWith(ending))) return 'speech';
-  if (name.endsWith('.fap')) return tab === 'live' ? 'stream' : 'page';
-  if (!name.endsWith('.json')) return 'heads';
-  if (file.size <= mostPoints && isPoints(await file.text())) return 'points';
-  return tab === 'animate' ? 'page' : 'stream';
+  const start = await file.slice(0, startLength).text();
+  if (/^(RIFF[^]{4}WAVE|OggS|fLaC|ID3)/.test(start)) return 'sound';
+  // The version of the format, a name, frames a second and the number of frames.
+  if (/^(\s*#.*\n)*\s*\d\.\d+\s+\S+\s+[\d.]+\s+\d+\s*(\n|$)/.test(start)) return 'fap';
+  if (/^\uFEFF?\s*\{/.test(start)) {
+    if (/"format"\s*:\s*"semblante\.performance"/.test(start)) return 'performance';
+    if (file.size <= mostPoints && isPoints(await file.text())) return 'points';
+  }
+  if (soundEndings.some((ending) => name.endsWith(ending))) return 'sound';
+  if (name.endsWith('.fap')) return 'fap';
+  return name.endsWith('.json') ? 'performance' : 'head';
+}
+
+/** Where a file goes: motion by the open tab; in tabs without a receiver, a performance goes to `stream`, a .fap file to `page`. */
+export function dropPlace(kind: DroppedKind, tab: Tab): DropPlace {
+  switch (kind) {
+    case 'points':
+      return 'points';
+    case 'sound':
+      return 'speech';
+    case 'head':
+      return 'heads';
+    case 'fap':
+      return tab === 'live' ? 'stream' : 'page';
+    case 'performance':
+      return tab === 'animate' ? 'page' : 'stream';
+  }
 }
 
 /** Whether a text is a set of feature points, right or wrong: the server says what is wrong with it. */

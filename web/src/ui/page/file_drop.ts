@@ -1,6 +1,6 @@
 import type { PathFile } from '../../net/head_files.ts';
 import type { ClipPanel } from '../animate/clip_panel.ts';
-import { dropPlace, type DropPlace } from './drop_place.ts';
+import { dropPlace, kindOfFile, type DropPlace } from './drop_place.ts';
 import { droppedFiles } from './dropped_files.ts';
 import type { PointsPanel } from '../points/points_panel.ts';
 import type { PerformancePanel } from '../live/performance_panel.ts';
@@ -19,7 +19,11 @@ export interface DropReceivers {
 export function routeDrops(page: HTMLElement, { studio, points, performance, clip, speak }: DropReceivers): void {
   acceptDrops(page, async (files) => {
     const { value: tab } = studio.tab;
-    const places = await Promise.all(files.map(({ file }) => dropPlace(file, tab)));
+    const kinds = await Promise.all(files.map(({ file }) => kindOfFile(file)));
+    const places = kinds.map((kind) => dropPlace(kind, tab));
+    // Whoever reads motion tells the two kinds apart by the ending.
+    const motion = (script: PathFile): File =>
+      kinds[files.indexOf(script)] === 'fap' && !/\.fap$/i.test(script.file.name) ? new File([script.file], `${script.file.name}.fap`) : script.file;
     const going = (place: DropPlace): PathFile[] => files.filter((_, i) => places[i] === place);
     const [set, script, file, sound] = (['points', 'stream', 'page', 'speech'] as const).map((place) => going(place).at(-1));
     const heads = going('heads');
@@ -28,10 +32,10 @@ export function routeDrops(page: HTMLElement, { studio, points, performance, cli
       void points.importFile(set.file);
     } else if (script) {
       studio.tab.set('live');
-      void performance.takeFile(script.file);
+      void performance.takeFile(motion(script));
     } else if (file) {
       studio.tab.set('animate');
-      void clip.takeFile(file.file);
+      void clip.takeFile(motion(file));
     } else if (sound) {
       studio.tab.set('animate');
       speak.takeRecording(sound.file);
