@@ -186,6 +186,8 @@ export const portugueseAnimate = {
   'Speak into a stream': 'Falar em um fluxo',
   'Stream to speak in': 'Fluxo que fala',
   'Record it': 'Gravar',
+  'Plane of mouth shapes. Arrow keys move over it: to the right wider, down more open.':
+    'Plano das formas da boca. As setas movem sobre ele: à direita mais larga, abaixo mais aberta.',
   'Record by hand': 'Gravar à mão',
   'Record what you do with the sliders, to play and save it': 'Grava o que você faz com os controles, para tocar e salvar',
   'Stop, {time}': 'Parar, {time}',

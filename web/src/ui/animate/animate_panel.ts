@@ -21,6 +21,7 @@ import { rove } from '../shared/roving.ts';
 import { Slider } from '../shared/slider.ts';
 import type { Toasts } from '../shared/toast.ts';
 import { VisemeGrid } from './viseme_grid.ts';
+import { VisemePad } from './viseme_pad.ts';
 import { nameOf, t } from '../../words/words.ts';
 
 const idleNote = t('Adds blinks and glances to what you set, on this page only.');
@@ -49,6 +50,7 @@ const blinkTime = 160;
 export class AnimatePanel {
   readonly element: HTMLElement;
   private readonly grid: VisemeGrid;
+  private readonly pad = new VisemePad((first, second, share) => this.blend(first, second, share));
   private readonly strength: Slider;
   private readonly second: HTMLSelectElement;
   private readonly feelings: { slider: Slider; row: HTMLElement; button: HTMLButtonElement }[] = [];
@@ -115,6 +117,7 @@ export class AnimatePanel {
         {},
         h('header', { class: 'section-head' }, h('h2', {}, t('Visemes'))),
         this.grid.element,
+        this.pad.element,
         h(
           'div',
           { class: 'blend' },
@@ -149,6 +152,7 @@ export class AnimatePanel {
   refresh(): void {
     const { frame } = this.options;
     this.grid.show(frame.viseme.select1 === 0 && frame.viseme.blend === 0 ? 0 : frame.viseme.select1);
+    this.pad.show(frame.viseme.select1, frame.viseme.select2, frame.viseme.blend === 0 && frame.viseme.select2 === 0 ? 1 : frame.viseme.blend / maxBlend);
     for (const [i, feeling] of this.feelings.entries()) {
       const intensity = expressionIntensity(frame, i + 1);
       // The frame has 64 steps, the slider 100: do not move a slider that already rounds to the step, during a drag.
@@ -221,6 +225,13 @@ export class AnimatePanel {
 
   private chooseViseme(viseme: number): void {
     this.viseme = this.viseme === viseme ? 0 : viseme;
+    this.applyViseme();
+  }
+
+  private blend(first: number, second: number, share: number): void {
+    this.viseme = first;
+    this.strength.set(Math.round(share * 100));
+    this.second.value = String(second);
     this.applyViseme();
   }
 
