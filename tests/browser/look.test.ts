@@ -208,7 +208,7 @@ describe('look', () => {
           ['example', example.url, ''],
         ] as const) {
           const one = await Screens.open(look, url, /./);
-          if (state === 'playing') await untilFace(one.studio.page, state);
+          if (state === 'playing') await untilFace(one.studio.page, 'playing', 'resting'); // less motion is asked for: it waits for Play
           await one.studio.page.waitForTimeout(state === 'playing' ? 500 : 4000); // the rest has no event to wait for
           await one.studio.keep(`screens/${look.name}-${name}`);
           await one.close();
