@@ -156,7 +156,8 @@ test('Gaze_EyesWithoutAnIrisOfTheFile_AreRoundWhereTheGazePiercesThem', async ()
   const studio = await StudioPage.open(browser, `${server.url}/#${id}`, { width: 1300, height: 1000 });
   await studio.waitForStage('ready');
   await studio.page.evaluate((place) => {
-    const { scene } = (window as unknown as { semblante: { scene: { stage: { focus(at: Vector): void } } } }).semblante;
+    const { scene } = (window as unknown as { semblante: { scene: { stage: { look(view: string): void; focus(at: Vector): void } } } }).semblante;
+    scene.stage.look('front');
     scene.stage.focus(place);
   }, eye.pivot);
   for (const pitch of [-20, 0, 20]) {

@@ -11,6 +11,7 @@ async function open(options: { width?: number; height?: number; dark?: boolean }
   await studio.waitForStage('ready');
   await studio.page.evaluate(() => (window as unknown as Inside).semblante.driver.byHand());
   await studio.page.locator('#influence-view').check();
+  await studio.page.getByRole('button', { name: 'Front', exact: true }).click(); // both sides of the face are seen
   return studio;
 }
 
@@ -254,14 +255,14 @@ describe('units', () => {
 
     await input.fill(String(measured * 1.5));
     await input.press('Enter');
-    await page.getByRole('button', { name: 'by hand' }).waitFor();
+    await page.getByRole('button', { name: 'by hand', exact: true }).waitFor();
     expect((await byHand())['MW']).toBeCloseTo(measured * 1.5, 4);
     await page.getByText('until it is parametrized again').waitFor();
     await page.locator('.units').getByRole('button', { name: 'Parametrize again' }).click();
     await eventually('the package has the new unit', async () => Math.abs((await rig())['MW']! * 1024 - measured * 1.5) < 1e-3 * measured);
     await page.getByText('until it is parametrized again').waitFor({ state: 'hidden' });
 
-    await page.getByRole('button', { name: 'by hand' }).click();
+    await page.getByRole('button', { name: 'by hand', exact: true }).click();
     await eventually('no unit is given by hand', async () => (await byHand())['MW'] === undefined);
     await page.getByText('until it is parametrized again').waitFor();
     expect(studio.errors).toEqual([]);
