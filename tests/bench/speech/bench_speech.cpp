@@ -29,7 +29,7 @@ void print_heads() {
         std::vector<EmotionSpan> emotions;
         if (joy) emotions.push_back({1, 1.0, {0, 1000}});
         const Performance face = face_of(said, pangram.language, emotions);
-        const Closures closed = closures(speaker, said, pangram.language, face);
+        const Closures closed = closures(speaker, said, pangram.language, face, 4.0);
         const Step step = in_step(speaker, said, pangram.language, face);
         std::printf("%-14s %-6s %-6s %4d %7.1f %8.0f %+5.0f %6.2f %7.2f %8.0f\n", speaker.face.head().name.c_str(),
                     pangram.language, name, closed.count, 100.0 * closed.worst, closed.shortest, step.lag,

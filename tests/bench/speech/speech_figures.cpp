@@ -13,7 +13,7 @@
 namespace semblante::bench {
 namespace {
 
-constexpr double frame_ms = 40.0, step_ms = 20.0, phase_ms = 4.0;
+constexpr double frame_ms = 40.0, step_ms = 20.0;
 constexpr double closed_share = 0.1;  ///< of the opening of an "a": lips that look closed
 constexpr std::uint8_t viseme_a = 10, p_b_m = 1;
 constexpr Pangram texts[] = {
@@ -75,7 +75,8 @@ Performance face_of(const Utterance& said, std::string_view language, const std:
   return *std::move(made);
 }
 
-Closures closures(const Speaker& speaker, const Utterance& said, std::string_view language, const Performance& face) {
+Closures closures(const Speaker& speaker, const Utterance& said, std::string_view language, const Performance& face,
+                  double phase_ms) {
   const double closed = speaker.opening(frame_of(p_b_m, 0)), open = speaker.opening(frame_of(viseme_a, 0));
   Closures found;
   for (const Segment& segment : segments_of(said, sound_table(language), Loudness(said))) {
@@ -84,7 +85,7 @@ Closures closures(const Speaker& speaker, const Utterance& said, std::string_vie
     std::vector<double> openings;
     for (double ms = segment.begin - frame_ms; ms <= segment.end + frame_ms; ms += phase_ms)
       openings.push_back((speaker.opening(face.frame_at(std::max(0.0, ms))) - closed) / (open - closed));
-    constexpr auto phases = static_cast<std::size_t>(frame_ms / phase_ms);
+    const auto phases = static_cast<std::size_t>(frame_ms / phase_ms);
     for (std::size_t phase = 0; phase < phases; ++phase) {
       double least = 1e9;
       for (std::size_t i = phase; i < openings.size(); i += phases) least = std::min(least, openings[i]);

@@ -43,7 +43,9 @@ struct Closures {
   double worst_at = 0.0;  ///< ms
   double shortest = 0.0;  ///< ms, of a sound, in which the lips are open by less than a tenth
 };
-Closures closures(const Speaker& speaker, const Utterance& said, std::string_view language, const Performance& face);
+/// `phase_ms`: a divisor of 40, in steps of which openings are measured.
+Closures closures(const Speaker& speaker, const Utterance& said, std::string_view language, const Performance& face,
+                  double phase_ms);
 
 /// Opening of the mouth and strength of the sound.
 struct Step {
