@@ -23,7 +23,7 @@ export interface HandRecorderParts {
 
 /** The button that records what is done with the sliders and buttons of the Animate tab, and opens it as a file. */
 export function handRecorderButton({ studio, driver, faceShown, load, take }: HandRecorderParts): HTMLButtonElement {
-  const label = h('span', {}, t('Record by hand'));
+  const label = h('span', { class: 'number' }, t('Record by hand'));
   const button = h(
     'button',
     { type: 'button', class: 'quiet', title: t('Record what you do with the sliders, to play and save it'), 'aria-pressed': 'false' },
@@ -38,7 +38,8 @@ export function handRecorderButton({ studio, driver, faceShown, load, take }: Ha
     const last = recording.frames.at(-1)?.state;
     const state = shown?.state ?? last;
     if (state) recording.add(performance.now(), state);
-    setText(label, t('Stop, {time}', { time: formatTime(recording.frames.length * (1000 / writtenRate)) }));
+    // Whole seconds: a button whose width changes all the time is hard to press.
+    setText(label, t('Stop, {time}', { time: formatTime(Math.floor(recording.frames.length / writtenRate) * 1000) }));
     if (recording.full) void stop();
   };
   const start = (): void => {
