@@ -182,9 +182,8 @@ TEST(VoiceEspeak, CharactersThatAreNoWords_AreTaken) {
   }
 }
 
-// The library opens the dictionary of another alphabet or language at its first word, and crashes without.
 TEST(VoiceEspeak, WordsThatOverflowTheLibrary_AreSpoken) {
-  for (const char* const piece : {"a.", "\u00E9.", "s'", "s\u2019", "a. "}) {
+  for (const char* const piece : {"a.", "\u00E9.", "s'", "s\u2019", "a. ", "a&#46;", "a&#x2e;", "s&#39;", "s&apos;"}) {
     std::string text;
     for (int i = 0; i < 300; ++i) text += piece;
     for (const bool ssml : {false, true}) {
@@ -200,6 +199,7 @@ TEST(VoiceEspeak, WordsThatOverflowTheLibrary_AreSpoken) {
   EXPECT_EQ(short_one->words.back().range.first, 17U);
 }
 
+// The library opens the dictionary of another alphabet or language at its first word, and crashes without.
 TEST(VoiceEspeak, WordsOfOtherAlphabetsAndLanguages_AreSpokenByTheirDictionaries) {
   for (const char* const text :
        {"Ol\u00E1 \u041F\u0440\u0438\u0432\u0435\u0442", "\u0645\u0631\u062D\u0628\u0627", "\u05E9\u05DC\u05D5\u05DD",
