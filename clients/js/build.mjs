@@ -90,7 +90,7 @@ function shorterShaders(source) {
 
 for (const file of wasm) cpSync(file, join(dist, basename(file)));
 cpSync(join(dracoFolder, 'draco_decoder.wasm'), join(dist, 'draco_decoder.wasm'));
-for (const name of ['package.json', 'README.md', 'example.html', 'greeting.html']) cpSync(join(here, name), join(folder, name));
+for (const name of ['package.json', 'README.md', 'example.html', 'greeting.html', 'greeting.css', 'greeting.js']) cpSync(join(here, name), join(folder, name));
 cpSync(join(root, 'LICENSE'), join(folder, 'LICENSE'));
 writeFileSync(
   join(folder, 'NOTICE'),

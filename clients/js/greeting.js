@@ -1,0 +1,16 @@
+// Plain JavaScript, as a page has it. In a file of its own, because careful servers run no scripts within pages.
+const face = document.querySelector('semblante-face');
+const status = document.querySelector('[role=status]');
+const speech = new URL('/v1/streams/demo/speech', face.getAttribute('src') || location.href);
+for (const button of document.querySelectorAll('button'))
+  button.onclick = async () => {
+    status.textContent = '';
+    try {
+      await face.setSound(true); // browsers let a page be heard after a tap
+      const body = JSON.stringify({ text: button.dataset.text, language: button.lang, take_over: true });
+      const answer = await fetch(speech, { method: 'POST', headers: { 'Content-Type': 'application/json' }, body });
+      if (!answer.ok) status.textContent = (await answer.json()).detail;
+    } catch (error) {
+      status.textContent = String(error.message ?? error);
+    }
+  };
