@@ -25,6 +25,7 @@ constexpr double eye_off_its_point = 0.5;  // centre of an eyeball from its pupi
 constexpr double mouth_below_eyes = 1.1;
 constexpr double mouth_half_width = 0.6;
 constexpr double mouth_half_height = 0.55;
+constexpr double lips_half_height = 0.2;
 constexpr double mouth_depth = 1.6;
 constexpr double attached_mean = 0.15;  // lashes: at most a centimetre long, with roots on the lid
 constexpr double attached_most = 0.4;
@@ -261,8 +262,9 @@ class PlaceGuess {
   [[nodiscard]] bool is_around_mouth(const PartShape& shape) const {
     const std::optional<glm::dvec3> mouth = mouth_place();
     if (!mouth || !eyes_[0] || !eyes_[1]) return false;
-    return shape.high.y < 0.5 * (eyes_[0]->y + eyes_[1]->y) && shape.high.y > mouth->y && shape.low.y < mouth->y &&
-           shape.low.x < mouth->x && shape.high.x > mouth->x &&
+    const double lips = share_of_es::lips_half_height * es_;
+    return shape.high.y < 0.5 * (eyes_[0]->y + eyes_[1]->y) && shape.high.y > mouth->y + lips &&
+           shape.low.y < mouth->y - lips && shape.low.x < mouth->x && shape.high.x > mouth->x &&
            shape.high.z > mouth->z - share_of_es::mouth_half_height * es_;
   }
 
