@@ -74,7 +74,7 @@ describe('animate', () => {
     await page.mouse.move(a.x + a.width / 2, a.y + a.height / 2, { steps: 4 });
     await page.mouse.up();
     await page.locator('[data-viseme="10"][aria-pressed=true]').waitFor();
-    await page.locator('.blend .slider').getByText('100').waitFor();
+    await page.waitForFunction(() => [...document.querySelectorAll<HTMLInputElement>('.blend .slider input')].every(({ value }) => value === '100'));
     // Towards the neighbour the shape is mixed; the other controls show it.
     await pad.focus();
     await page.keyboard.press('ArrowLeft');
