@@ -128,7 +128,7 @@ class Sbom(unittest.TestCase):
         self.assertLessEqual(packages, self.names("studio"))
         # Files that the build copies from a package: the decoder of Draco is of another author.
         config = (TOP / "web/vite.config.ts").read_text()
-        copied = set(re.findall(r"node_modules/([^'\"]*)", config))
+        copied = set(re.findall(r"here\('node_modules/([^'\"]*)", config))
         self.assertEqual(copied, {"three/examples/jsm/libs/draco/gltf/"})
         self.assertIn("draco-decoder", self.names("studio"))
 
