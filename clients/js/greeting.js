@@ -1,4 +1,4 @@
-// Plain JavaScript, as a page has it. In a file of its own, because careful servers run no scripts within pages.
+// A file of its own, because a Content-Security-Policy may forbid scripts within a page.
 const face = document.querySelector('semblante-face');
 const status = document.querySelector('[role=status]');
 const speech = new URL('/v1/streams/demo/speech', face.getAttribute('src') || location.href);

@@ -1,5 +1,5 @@
 import { frameLayout, momentLayout, playerOptionsLayout, playerStatisticsLayout } from './generated/layouts.ts';
-import { Runtime } from './runtime.ts';
+import { freeBlocks, Runtime } from './runtime.ts';
 import type { StreamClient } from './stream_client.ts';
 import type { StreamClock } from './stream_clock.ts';
 
@@ -280,7 +280,7 @@ export class Player {
 
 function releasePlayer({ runtime, player, moment, statistics, laid }: PlayerMemory): void {
   runtime.functions.semblante_player_destroy(player);
-  for (const at of [moment, statistics, laid]) runtime.free(at);
+  freeBlocks({ runtime, blocks: [moment, statistics, laid] });
 }
 
 /** One of the four frames of the moment. */

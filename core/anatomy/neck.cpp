@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 #include <string_view>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
@@ -334,36 +335,40 @@ bool may_be_body(const Part& part) {
   return !part.role_by_user && (part.role == PartRole::attached || part.role == PartRole::rest);
 }
 
-/// By part: whether it is worn on the head, as hair is that reaches down to the waist. Parts of one name decide
-/// together, because hair consists of strands, but those of the skin's name.
+/// By part: whether it is worn on the head, as hair is that reaches down to the waist: enough of its vertices lie on
+/// the skull. Parts of one name count together, because hair consists of strands; those without a name or with the
+/// skin's count alone.
 std::vector<bool> worn_on_head(const Surface& surface, std::span<const Part> parts, const NearestPoint& skin,
                                std::span<const std::uint8_t> turn_of_skin, const Landmarks& marks) {
   std::set<std::string_view> names_of_skin = {""};
   for (const Part& part : parts) {
     if (part.role == PartRole::skin) names_of_skin.insert(part.name);
   }
-  struct Count {
-    std::size_t vertices = 0, on_head = 0;
+  const auto group_of = [&](std::uint32_t p) {
+    const std::string_view name = parts[p].name;
+    return std::pair(name, names_of_skin.count(name) > 0 ? p : 0U);
   };
-  std::map<std::string_view, Count> by_name;
-  std::vector<Count> counts(parts.size());
+  const auto lies_on_skull = [&](SurfaceVertexId v) {
+    const glm::dvec3& place = surface.positions[v.value()];
+    if (place.y < marks.chin.y + marks.height) return false;
+    const NearestPoint::Hit below = skin.nearest(place);
+    return below.distance < near_skull * marks.height && turn_of_skin[below.index] == 255;
+  };
+  struct Count {
+    std::size_t vertices = 0, on_skull = 0;
+  };
+  std::map<std::pair<std::string_view, std::uint32_t>, Count> counts;
   for (std::uint32_t p = 0; p < parts.size(); ++p) {
     if (!may_be_body(parts[p])) continue;
-    for (const SurfaceVertexId v : surface.members_of(PartId(p))) {
-      ++counts[p].vertices;
-      const glm::dvec3& place = surface.positions[v.value()];
-      if (place.y < marks.chin.y + marks.height) continue;
-      const NearestPoint::Hit below = skin.nearest(place);
-      if (below.distance < near_skull * marks.height && turn_of_skin[below.index] == 255) ++counts[p].on_head;
-    }
-    Count& named = by_name[parts[p].name];
-    named.vertices += counts[p].vertices;
-    named.on_head += counts[p].on_head;
+    const auto members = surface.members_of(PartId(p));
+    Count& count = counts[group_of(p)];
+    count.vertices += members.size();
+    count.on_skull += static_cast<std::size_t>(std::count_if(members.begin(), members.end(), lies_on_skull));
   }
   std::vector<bool> worn(parts.size());
   for (std::uint32_t p = 0; p < parts.size(); ++p) {
-    const Count& count = names_of_skin.count(parts[p].name) > 0 ? counts[p] : by_name[parts[p].name];
-    worn[p] = static_cast<double>(count.on_head) > least_on_head * static_cast<double>(count.vertices);
+    const Count& count = counts[group_of(p)];
+    worn[p] = static_cast<double>(count.on_skull) > least_on_head * static_cast<double>(count.vertices);
   }
   return worn;
 }

@@ -20,10 +20,10 @@ namespace semblante {
 ///
 /// Head and neck are measured on the skin of the face: the head is above the line from the chin to the nape; the
 /// shoulders begin where the neck widens. Where the skin ends below the jaw (a neck that is cut, also askew, or that
-/// ends in a collar), it stays. Each other part gets one
-/// value: 255 (hair, glasses, eyes), or 0 if it hangs at the shoulders. The latter also gets the role `body`, unless
-/// the user set another role. What is worn on the head and reaches below the shoulders (long hair) falls off by height
-/// from the jaw to the shoulders, so that it lies still on these.
+/// ends in a collar), it stays. Each other part gets one value: 255 (hair, glasses, eyes), or 0 if it hangs at the
+/// shoulders. The latter also gets the role `body`, unless the user set another role. The values of a part that is worn
+/// on the head and reaches below the shoulders (long hair) fall off by height from the jaw to the shoulders, where it
+/// lies still.
 ///
 /// If there is a joint of the neck and the shoulders are measured far from it, they begin at the joint.
 ///

@@ -64,6 +64,7 @@ class PlaceGuess {
     es_ = eyes_[0] && eyes_[1] ? glm::distance(*eyes_[0], *eyes_[1]) : share_of_es::of_skin_height * skin_.extent().y;
     find_balls();
     find_parts_of_eyes();
+    mouth_ = mouth_place();
     find_mouth();
     find_attached();
   }
@@ -157,23 +158,22 @@ class PlaceGuess {
   }
 
   void find_mouth() {
-    const std::optional<glm::dvec3> mouth = mouth_place();
     std::vector<std::size_t> inside;
     for (std::size_t p = 0; p < shapes_.size(); ++p) {
       if (!is_open(p)) continue;
       const bool named = is_named_teeth(shapes_[p]);
-      if (!mouth) {
+      if (!mouth_) {
         if (named) inside.push_back(p);
         continue;
       }
-      const glm::dvec3 from = shapes_[p].box_center() - *mouth;
+      const glm::dvec3 from = shapes_[p].box_center() - *mouth_;
       if (named || (std::abs(from.x) < share_of_es::mouth_half_width * es_ &&
                     std::abs(from.y) < share_of_es::mouth_half_height * es_ && from.z < 0.0 &&
                     from.z > -share_of_es::mouth_depth * es_ && shapes_[p].extent().x < 1.5 * es_)) {
         inside.push_back(p);
       }
     }
-    if (!inside.empty()) split_mouth(inside, mouth);
+    if (!inside.empty()) split_mouth(inside);
   }
 
   /// Whether a part is narrower than the widest row of teeth, and in its middle.
@@ -201,7 +201,7 @@ class PlaceGuess {
     });
   }
 
-  void split_mouth(const std::vector<std::size_t>& inside, const std::optional<glm::dvec3>& mouth) {
+  void split_mouth(const std::vector<std::size_t>& inside) {
     const bool teeth_elsewhere = largest(PartRole::upper_teeth) != nullptr || largest(PartRole::lower_teeth) != nullptr;
     if (largest(PartRole::tongue) == nullptr && (inside.size() >= 2 || teeth_elsewhere)) {
       const PartShape* row = nullptr;
@@ -224,7 +224,7 @@ class PlaceGuess {
     // The line where the teeth meet: between the marked edges; else the line of the lips.
     const std::optional<glm::dvec3> upper_edge = mean_of(points_, {"9.10"});
     const std::optional<glm::dvec3> lower_edge = mean_of(points_, {"9.11"});
-    double line = mouth ? mouth->y : skin_.box_center().y;
+    double line = mouth_ ? mouth_->y : skin_.box_center().y;
     if (upper_edge && lower_edge) line = 0.5 * (upper_edge->y + lower_edge->y);
     for (const std::size_t p : inside) {
       if (roles_[p]) continue;
@@ -260,12 +260,11 @@ class PlaceGuess {
   /// Whether a part begins between eyes and mouth, reaches below this and lies on both sides of it: a beard in one
   /// piece goes with the jaw. Hair begins above the eyes, a collar below the mouth.
   [[nodiscard]] bool is_around_mouth(const PartShape& shape) const {
-    const std::optional<glm::dvec3> mouth = mouth_place();
-    if (!mouth || !eyes_[0] || !eyes_[1]) return false;
+    if (!mouth_ || !eyes_[0] || !eyes_[1]) return false;
     const double lips = share_of_es::lips_half_height * es_;
-    return shape.high.y < 0.5 * (eyes_[0]->y + eyes_[1]->y) && shape.high.y > mouth->y + lips &&
-           shape.low.y < mouth->y - lips && shape.low.x < mouth->x && shape.high.x > mouth->x &&
-           shape.high.z > mouth->z - share_of_es::mouth_half_height * es_;
+    return shape.high.y < 0.5 * (eyes_[0]->y + eyes_[1]->y) && shape.high.y > mouth_->y + lips &&
+           shape.low.y < mouth_->y - lips && shape.low.x < mouth_->x && shape.high.x > mouth_->x &&
+           shape.high.z > mouth_->z - share_of_es::mouth_half_height * es_;
   }
 
   [[nodiscard]] bool may_be_attached(std::size_t p) const {
@@ -293,6 +292,7 @@ class PlaceGuess {
   NearestPoint near_skin_;
   std::array<std::optional<glm::dvec3>, 2> eyes_;  ///< left, right: approximate positions
   double es_ = 0.0;
+  std::optional<glm::dvec3> mouth_;
 };
 
 }  // namespace

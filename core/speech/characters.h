@@ -10,6 +10,13 @@
 
 namespace semblante {
 
+/// Number of bytes of the first character of a text of XML, which is not empty: a reference ("&amp;", "&#46;") is one.
+inline std::size_t xml_character_bytes(std::string_view text) {
+  constexpr std::size_t longest_reference = 12;
+  const std::size_t end = text[0] == '&' ? text.substr(0, longest_reference).find(';') : std::string_view::npos;
+  return end != std::string_view::npos ? end + 1 : utf8_step(text);
+}
+
 /// A text by its characters (code points).
 class Characters {
  public:

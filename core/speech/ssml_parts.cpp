@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/speech/characters.h"
 #include "core/speech/marked_ssml.h"
 #include "core/speech/text_breaks.h"
 #include "core/speech/xml_tag.h"
@@ -86,10 +87,7 @@ class Cutter {
       return true;
     }
     if (rest.starts_with('<')) return take_tag(rest);
-    // "&amp;" is one character, and is not cut.
-    constexpr std::size_t longest_entity = 10;
-    const std::size_t entity = rest[0] == '&' ? rest.substr(0, longest_entity).find(';') : std::string_view::npos;
-    const std::size_t next = entity != std::string_view::npos ? entity + 1 : utf8_step(rest);
+    const std::size_t next = xml_character_bytes(rest);
     // A line's end is a space here.
     if (const std::size_t sign = is_xml_space(rest[0]) ? 0 : sentence_sign(rest))
       ended_ = ended_ || ends_sentence(rest, sign);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 namespace semblante {
 namespace {
@@ -15,9 +16,7 @@ constexpr std::size_t long_clause = 160;  ///< characters
 bool is_space(char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-std::size_t sign_at(std::string_view text, std::string_view sign) { return text.starts_with(sign) ? sign.size() : 0; }
-template <std::size_t n>
-bool ends_with_one(std::string_view text, const std::array<std::string_view, n>& signs) {
+bool ends_with_one(std::string_view text, std::span<const std::string_view> signs) {
   return std::any_of(signs.begin(), signs.end(), [&](std::string_view sign) { return text.ends_with(sign); });
 }
 bool ends_with_sign(std::string_view text) {
@@ -27,10 +26,9 @@ bool ends_with_sign(std::string_view text) {
 }  // namespace
 
 std::size_t sentence_sign(std::string_view text) {
-  for (const std::string_view sign : spaced)
-    if (const std::size_t bytes = sign_at(text, sign)) return bytes;
-  for (const std::string_view sign : unspaced)
-    if (const std::size_t bytes = sign_at(text, sign)) return bytes;
+  for (const auto signs : {std::span<const std::string_view>(spaced), std::span<const std::string_view>(unspaced)})
+    for (const std::string_view sign : signs)
+      if (text.starts_with(sign)) return sign.size();
   return 0;
 }
 

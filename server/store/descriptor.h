@@ -14,9 +14,9 @@
 
 namespace semblante::store {
 
-/// A file descriptor, closed by the destructor: of a folder with O_DIRECTORY, else of a regular file. What else has the
-/// file's name is not opened: a FIFO or a device would be waited for, a symbolic link leads elsewhere. reason_of()
-/// names it.
+/// A file descriptor, closed by the destructor: of a folder with O_DIRECTORY, else of a regular file. Anything else of
+/// that name is not opened, because opening a FIFO or a device may block and a symbolic link leads elsewhere;
+/// reason_of() says what it is.
 class Descriptor {
  public:
   Descriptor(const std::filesystem::path& path, int flags) {

@@ -85,7 +85,7 @@ describe('nothing is lost', () => {
     expect(await shown('2.1')).toBeLessThan(before - 0.005);
     await page.getByRole('button', { name: 'Saved' }).waitFor();
 
-    // Both move the same point: the own place stays on the screen until one has chosen.
+    // Both move the same point: this page shows its own place until the user has chosen one.
     await page.locator('[data-point="2.1"]').click();
     await mark(studio, ['2.1']);
     await page.getByRole('button', { name: 'Save 1 change' }).waitFor();

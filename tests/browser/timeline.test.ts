@@ -143,7 +143,7 @@ describe('the timeline', () => {
     await first.scrollIntoViewIfNeeded();
     const session = await page.context().newCDPSession(page);
     const finger = async (on: Locator, by: number, rest = 0): Promise<void> => {
-      await on.scrollIntoViewIfNeeded(); // the panel of a phone is low
+      await on.scrollIntoViewIfNeeded(); // what is below the visible part of the panel gets no touch
       const box = (await on.boundingBox())!;
       const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
       const touch = (type: 'touchStart' | 'touchMove' | 'touchEnd', to: number | null): Promise<unknown> =>

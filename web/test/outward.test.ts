@@ -16,7 +16,7 @@ test('Outward_OfALipsEdgeThatLooksDown_IsForward', () => {
   ]);
   const outward = outwardAt([lip], edge, 3).normalize();
   expect(outward.z).toBeGreaterThan(0.95);
-  expect(outwardAt([lip], edge, 0.1).normalize().z).toBeCloseTo(0.6); // the vertex alone
+  expect(outwardAt([lip], edge, 0.1).normalize().z).toBeCloseTo(0.6); // of the nearest vertex alone
 });
 
 test('Outward_OfAnEar_IsThatOfItsOwnSide', () => {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdlib>
 
+#include "core/speech/characters.h"
 #include "core/types/printable.h"
 
 namespace semblante::voice {
@@ -12,13 +13,6 @@ namespace {
 bool is_apostrophe(std::string_view character) {
   constexpr std::array<std::string_view, 4> signs = {"'", "’", "ʼ", "‘"};
   return std::find(signs.begin(), signs.end(), character) != signs.end();
-}
-
-/// The first character of a text; in SSML with its whole reference ("&#46;").
-std::string_view first_character(std::string_view text, bool ssml) {
-  constexpr std::size_t longest_reference = 12;
-  const std::size_t end = ssml && text[0] == '&' ? text.substr(0, longest_reference).find(';') : std::string_view::npos;
-  return text.substr(0, end != std::string_view::npos ? end + 1 : utf8_step(text));
 }
 
 /// What a character is for the library: "." for "&#46;".
@@ -58,7 +52,7 @@ std::string with_bounded_words(std::string_view text, bool ssml) {
   bool in_tag = false;
   int dots = 0, apostrophes = 0, letters = 0;  // of an abbreviation, of a word, since the last sign or space
   while (!text.empty()) {
-    const std::string_view character = first_character(text, ssml);
+    const std::string_view character = text.substr(0, ssml ? xml_character_bytes(text) : utf8_step(text));
     text.remove_prefix(character.size());
     in_tag = ssml && (character == "<" || (in_tag && character != ">"));
     const std::string meaning = in_tag ? "" : meaning_of(character);

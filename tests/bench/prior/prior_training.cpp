@@ -152,7 +152,7 @@ class Fit {
  private:
   static constexpr int least_hundredths = 5;
 
-  /// The factors of the table's rows at every vertex, as WeightPrior::correct has them.
+  /// What each entry of the table is multiplied by at each vertex: the products of WeightPrior::correct.
   void find_products(Lesson& lesson) const {
     const Matrix all = with_root(lesson.rows);
     lesson.products.resize(all.rows(), static_cast<Eigen::Index>(pairs_.size()));

@@ -310,7 +310,7 @@ TEST_F(LiveSpeechOfEspeak, PartsJoin_WithoutGapOrOverlap_AsInTheWhole) {
   ASSERT_EQ(ask("DELETE", "/v1/streams/whole").status, 204);
   listen_to(other, [] { return false; });
   for (const double gap : parts.gaps()) EXPECT_GE(gap, 0.0) << "an overlap";
-  // The end of a part comes in shorter packets; by their durations as much is heard as of the whole.
+  // A part ends with a shorter packet, so durations are compared, not numbers of packets.
   EXPECT_NEAR(parts.packets_ms(), heard_.packets_ms(), 4 * 60.0);
   EXPECT_NEAR(parts.sound_ms(), heard_.sound_ms(), 4 * 20.0);
   EXPECT_TRUE(parts.one_clock());

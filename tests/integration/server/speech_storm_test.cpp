@@ -1,5 +1,5 @@
 // Speech that is started, stopped, replaced and deleted from many sides at once, while others listen, record and
-// publish. SEMBLANTE_STORM_SECONDS: how long; a short form by default.
+// publish. SEMBLANTE_STORM_SECONDS sets how long it lasts; by default it is short.
 
 #include <atomic>
 #include <csignal>

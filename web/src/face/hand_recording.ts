@@ -3,8 +3,8 @@ import { copyFrame, type FaceFrame } from '@protocol/face_frame.ts';
 import { longestMotion, writtenRate } from './motion_frames.ts';
 
 /**
- * The frames of a face while somebody moves it, 25 a second by the clock: a sample that comes late stands for the frames that were left
- * out. Ten minutes at most.
+ * The frames of a face while somebody moves it, 25 a second by the clock: a late sample also fills the frames that were missed.
+ * Ten minutes at most.
  */
 export class HandRecording {
   readonly frames: TimedFrame[] = [];

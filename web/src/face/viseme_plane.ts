@@ -32,6 +32,7 @@ export function visemesAt([x, y]: Place): { first: number; second: number; share
 export function placeOf(first: number, second: number, share: number): Place {
   const [a, b] = [visemePlaces[first]!, visemePlaces[second]!];
   // The share goes with the squares of the distances.
-  const along = Math.sqrt(Math.max(0, 1 - share)) / (Math.sqrt(Math.max(0, 1 - share)) + Math.sqrt(Math.max(0, share)));
+  const [ofFirst, ofSecond] = [share, 1 - share].map((part) => Math.sqrt(Math.max(0, part))) as [number, number];
+  const along = ofSecond / (ofFirst + ofSecond);
   return [a[0] + (b[0] - a[0]) * along, a[1] + (b[1] - a[1]) * along];
 }

@@ -40,7 +40,7 @@ export function findHead(pieces: readonly Piece[]): Box | null {
   let head = 0; // the greatest width so far
   let neck = -1; // the narrowest slice below it
   let neckWidth = Infinity;
-  let foot = -1; // the lowest slice that is about as narrow
+  let foot = -1; // the lowest slice that is about as narrow as the neck
   for (let slice = 0; slice < slices; slice += 1) {
     const width = widths[slice]!;
     if (width === 0) continue;

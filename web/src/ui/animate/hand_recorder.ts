@@ -34,9 +34,8 @@ export function handRecorderButton({ studio, driver, faceShown, load, take }: Ha
   let timer = 0;
   const sample = (): void => {
     if (!recording) return;
-    const shown = driver.shownFrame(); // null: of a stream; the last frame goes on
-    const last = recording.frames.at(-1)?.state;
-    const state = shown?.state ?? last;
+    // While a stream drives the face there is no frame: the last one goes on.
+    const state = driver.shownFrame()?.state ?? recording.frames.at(-1)?.state;
     if (state) recording.add(performance.now(), state);
     // Whole seconds: a button whose width changes all the time is hard to press.
     setText(label, t('Stop, {time}', { time: formatTime(Math.floor(recording.frames.length / writtenRate) * 1000) }));

@@ -82,7 +82,7 @@ export class PointsModel {
    */
   async update(model: Model): Promise<void> {
     if (this.model?.id !== model.id || !this.opened) return;
-    if (this.axes !== axesOf(model)) return this.open(model); // the positions are others now
+    if (this.axes !== axesOf(model)) return this.open(model); // with the axes all positions have changed
     // A request of this page that is under way brings the newest points itself, or is refused.
     if (!this.busy.value) await this.takeNewer(model.id);
   }
