@@ -33,8 +33,8 @@ constexpr std::array<BorderPoint, 15> border_points = {{{0, 31},
                                                         {96, 2},
                                                         {108, -5},
                                                         {122, -21},
-                                                        {142, -32},
-                                                        {180, -36}}};
+                                                        {142, -35},
+                                                        {180, -40}}};
 
 /// Strands from the forehead over the crown to the nape: lines of equal angle about an axis whose ends are under the
 /// border of the hair, so that no strands are seen to meet.
@@ -47,7 +47,9 @@ double angle_across(const Vec3& p) {
 double thickness(double a, double t, const Vec3& p) {
   const double front = 0.5 + 0.5 * std::cos(a);
   // The locks are off the forehead, whose skin moves under them.
-  const double body = 0.12 + 0.16 * glm::smoothstep(1.3, 0.9, a) + 0.80 * glm::smoothstep(0.0, 0.45, t) +
+  // Behind it is cut short at the border, and tapers into the neck.
+  const double full = glm::mix(0.45, 0.85, glm::smoothstep(1.6, 2.4, a));
+  const double body = 0.12 + 0.16 * glm::smoothstep(1.3, 0.9, a) + 0.80 * glm::smoothstep(0.0, full, t) +
                       0.95 * front * front * glm::smoothstep(0.0, 0.26, t) * (1.0 - glm::smoothstep(0.40, 1.0, t));
   const double lock = std::abs(std::sin(5.5 * angle_across(p) + 0.5 * std::sin(0.45 * p.z) + 0.4));
   const double groove = std::pow(1.0 - lock, 1.6) * glm::smoothstep(0.0, 0.12, t);
@@ -58,18 +60,18 @@ double thickness(double a, double t, const Vec3& p) {
 struct LockPoint {
   double azimuth, fall;  ///< degrees
 };
-constexpr std::array<LockPoint, 14> locks = {{{0, 6},
-                                              {5, 8.5},
-                                              {7.5, 4.5},
-                                              {15, 10},
-                                              {20, 5},
-                                              {27.5, 9.5},
-                                              {32.5, 4.5},
-                                              {40, 8},
-                                              {45, 3.5},
-                                              {52.5, 5.5},
-                                              {57.5, 1.5},
-                                              {65, 2.5},
+constexpr std::array<LockPoint, 14> locks = {{{0, 4.5},
+                                              {5, 6},
+                                              {10, 3.5},
+                                              {15, 5},
+                                              {20, 7},
+                                              {25, 4},
+                                              {32.5, 6.5},
+                                              {37.5, 3.5},
+                                              {45, 5},
+                                              {50, 2},
+                                              {57.5, 3},
+                                              {62.5, 1},
                                               {70, 0},
                                               {180, 0}}};
 

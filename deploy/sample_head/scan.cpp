@@ -52,7 +52,9 @@ Ray ray_of(double row, double azimuth) {
     height = glm::mix(-14.0, -20.5, t);
     elevation = glm::radians(40.0) * t;  // a steeper ray would meet the chin
   } else {
-    const double hem = glm::mix(-10.0, -36.0, std::pow(std::cos(azimuth), 2.0));
+    // Chest and back are lower than the arms, and the back is farther from the axis.
+    const double forward = std::cos(azimuth);
+    const double hem = glm::mix(-10.0, -32.0 - 4.0 * forward, forward * forward);
     height = -20.5;
     elevation = glm::radians(glm::mix(40.0, hem, (row - 0.84) / 0.16));
   }

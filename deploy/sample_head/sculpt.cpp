@@ -31,7 +31,7 @@ double join(double a, double b, double k) {
 /// `a` minus `b`, with a rounded rim of size k.
 double carve(double a, double b, double k) { return -join(-a, b, k); }
 
-double bridge_distance(const Vec3& q) { return capsule(q, {0.0, 0.9, 7.75}, {0.0, -3.1, 10.0}, 0.98, 0.84); }
+double bridge_distance(const Vec3& q) { return capsule(q, {0.0, 0.9, 7.85}, {0.0, -3.1, 10.05}, 0.84, 0.74); }
 
 double nose_end_distance(const Vec3& q) {
   double d = ellipsoid(q, {0.0, -3.62, 10.36}, {0.98, 0.82, 0.94});                // tip
@@ -42,11 +42,11 @@ double nose_end_distance(const Vec3& q) {
 
 /// Neck, shoulders and chest.
 double bust_distance(const Vec3& q) {
-  double d = capsule(q, {0.0, -5.5, -3.2}, {0.0, -16.0, -4.3}, 4.5, 4.95);           // neck
+  double d = capsule(q, {0.0, -5.5, -3.0}, {0.0, -16.0, -4.3}, 4.3, 4.8);            // neck
   d = join(d, capsule(q, {4.4, -6.0, -2.2}, {1.6, -17.5, 0.0}, 0.7, 0.7), 2.4);      // sternomastoid
-  d = join(d, capsule(q, {0.0, -15.5, -5.6}, {9.5, -20.4, -5.0}, 2.5, 2.2), 4.0);    // trapezius
-  d = join(d, capsule(q, {11.4, -22.6, -4.2}, {12.6, -28.0, -4.0}, 3.7, 3.5), 4.0);  // shoulder
-  return join(d, ellipsoid(q, {0.0, -26.0, -4.4}, {12.5, 8.8, 6.6}), 3.0);           // chest
+  d = join(d, capsule(q, {0.0, -14.6, -5.6}, {9.5, -19.9, -5.0}, 2.5, 2.4), 4.0);    // trapezius
+  d = join(d, capsule(q, {11.4, -22.6, -4.4}, {12.6, -28.0, -4.2}, 4.3, 4.4), 4.0);  // shoulder
+  return join(d, ellipsoid(q, {0.0, -26.0, -4.4}, {12.5, 8.8, 8.8}), 3.0);           // chest
 }
 
 }  // namespace

@@ -80,7 +80,7 @@ Colour skin_colour(const Vec3& p, const Paint& paint) {
                         0.13 * std::sin(29.0 * azimuth + 2.0);
   const double roots = 0.85 * glm::smoothstep(-0.08 - 0.025 * strand, 0.06, over);
   c = glm::mix(c, Colour(0.24, 0.15, 0.11), roots * (paint.flush > 0.0 ? 0.0 : 1.0));
-  c = glm::mix(c, Colour(0.765, 0.440, 0.410), 0.9 * paint.lip);
+  c = glm::mix(c, Colour(0.760, 0.455, 0.420), 0.85 * glm::smoothstep(0.2, 0.8, paint.lip));
   c = glm::mix(c, Colour(0.72, 0.46, 0.42), 0.8 * paint.lid);
   return glm::mix(c, Colour(0.13, 0.08, 0.06), glm::smoothstep(0.55, 0.9, paint.lash));
 }
