@@ -1,11 +1,9 @@
 #include "core/parametrize/influence.h"
 
 #include <algorithm>
-#include <limits>
-#include <queue>
 
 #include "core/anatomy/jaw_share.h"
-#include "core/geometry/nearest_point.h"
+#include "core/parametrize/attached_vertices.h"
 
 namespace semblante {
 namespace {
@@ -48,71 +46,6 @@ class InfluenceRow {
   std::vector<Entry> entries_;
 };
 
-/// For every vertex of attached parts the skin vertex it follows.
-///
-/// A lash is attached to the lid by its root: its tip must not follow the brow, which may be nearer. So a vertex
-/// follows the skin vertex with the shortest path to it, where lengths through the air count several times those along
-/// the part.
-class AttachedVertices {
- public:
-  AttachedVertices(const Surface& surface, std::span<const Part> parts)
-      : surface_(surface), anchor_(surface.vertex_count()), cost_(surface.vertex_count(), infinite) {
-    std::vector<glm::dvec3> skin;
-    std::vector<SurfaceVertexId> skin_vertices;
-    for (std::uint32_t p = 0; p < parts.size(); ++p) {
-      if (parts[p].role != PartRole::skin) continue;
-      for (const SurfaceVertexId v : surface.members_of(PartId(p))) {
-        skin.push_back(surface.positions[v.value()]);
-        skin_vertices.push_back(v);
-      }
-    }
-    if (skin.empty()) return;
-    const NearestPoint near_skin(skin);
-    for (std::uint32_t p = 0; p < parts.size(); ++p) {
-      if (parts[p].role != PartRole::attached) continue;
-      for (const SurfaceVertexId v : surface.members_of(PartId(p))) {
-        const NearestPoint::Hit hit = near_skin.nearest(surface.positions[v.value()]);
-        anchor_[v.value()] = skin_vertices[hit.index];
-        lower(v, air * hit.distance, skin_vertices[hit.index]);
-      }
-    }
-    spread();
-  }
-
-  [[nodiscard]] std::optional<SurfaceVertexId> followed_by(SurfaceVertexId vertex) const {
-    if (cost_[vertex.value()] == infinite) return std::nullopt;
-    return anchor_[vertex.value()];
-  }
-
- private:
-  static constexpr double infinite = std::numeric_limits<double>::infinity();
-  static constexpr double air = 4.0;
-
-  void lower(SurfaceVertexId vertex, double cost, SurfaceVertexId anchor) {
-    if (cost >= cost_[vertex.value()]) return;
-    cost_[vertex.value()] = cost;
-    anchor_[vertex.value()] = anchor;
-    queue_.emplace(cost, vertex);
-  }
-  void spread() {
-    while (!queue_.empty()) {
-      const auto [cost, vertex] = queue_.top();
-      queue_.pop();
-      if (cost > cost_[vertex.value()]) continue;
-      for (const Surface::Step& step : surface_.steps_from(vertex)) {
-        lower(step.to, cost + step.length, anchor_[vertex.value()]);
-      }
-    }
-  }
-
-  const Surface& surface_;
-  std::vector<SurfaceVertexId> anchor_;
-  std::vector<double> cost_;
-  std::priority_queue<std::pair<double, SurfaceVertexId>, std::vector<std::pair<double, SurfaceVertexId>>,
-                      std::greater<>>
-      queue_;
-};
-
 }  // namespace
 
 WeightTable<float> influence_with_roles(const Surface& surface, std::span<const Part> parts,
@@ -120,7 +53,7 @@ WeightTable<float> influence_with_roles(const Surface& surface, std::span<const 
                                         const WeightTable<double>& weights, WeightMethod method) {
   const std::optional<FeaturePointId> jaw = parse_feature_point("2.1");
   const bool has_jaw = std::any_of(points.begin(), points.end(), [&](const SurfacePoint& p) { return p.id == *jaw; });
-  const AttachedVertices attached(surface, parts);
+  const auto followed = followed_by_attached(surface, parts, points);
 
   WeightTable<float> table;
   InfluenceRow row(method);
@@ -131,7 +64,7 @@ WeightTable<float> influence_with_roles(const Surface& surface, std::span<const 
         row.add_row(weights, vertex, 1.0);
         break;
       case PartRole::attached:
-        if (const auto followed = attached.followed_by(vertex)) row.add_row(weights, *followed, 1.0);
+        if (followed[s]) row.add_row(weights, *followed[s], 1.0);
         break;
       case PartRole::tongue:
         row.add_row(weights, vertex, mouth[s].tongue);

@@ -1,0 +1,150 @@
+#include "core/parametrize/attached_vertices.h"
+
+#include <algorithm>
+#include <limits>
+#include <queue>
+
+#include <glm/geometric.hpp>
+
+#include "core/anatomy/lid_edge.h"
+#include "core/geometry/nearest_point.h"
+
+namespace semblante {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+/// Of a length through the air, per length along the part.
+constexpr double air = 4.0;
+
+// Of lashes, in widths of the eye.
+constexpr double root_from_edge = 0.15;  ///< their nearest vertex to the edge of the lid
+constexpr double longest_lash = 1.0;     ///< no vertex is farther from it
+constexpr double of_one_lid = 0.8;       ///< of their vertices are nearer to the edge of one lid than to the other's:
+                                         ///< what fills the gap between lid and eye is at both
+
+/// Vertices of skin, and the nearest of them to a place.
+class SkinVertices {
+ public:
+  SkinVertices(const Surface& surface, std::vector<SurfaceVertexId> vertices)
+      : vertices_(std::move(vertices)), nearest_(positions_of(surface, vertices_)) {}
+
+  struct Hit {
+    SurfaceVertexId vertex;
+    double distance;
+  };
+  [[nodiscard]] Hit nearest(const glm::dvec3& place) const {
+    const NearestPoint::Hit hit = nearest_.nearest(place);
+    return {vertices_[hit.index], hit.distance};
+  }
+
+ private:
+  static std::vector<glm::dvec3> positions_of(const Surface& surface, std::span<const SurfaceVertexId> vertices) {
+    std::vector<glm::dvec3> positions;
+    for (const SurfaceVertexId v : vertices) positions.push_back(surface.positions[v.value()]);
+    return positions;
+  }
+
+  std::vector<SurfaceVertexId> vertices_;
+  NearestPoint nearest_;
+};
+
+std::vector<SurfaceVertexId> vertices_of_skin(const Surface& surface, std::span<const Part> parts) {
+  std::vector<SurfaceVertexId> vertices;
+  for (std::uint32_t p = 0; p < parts.size(); ++p) {
+    if (parts[p].role != PartRole::skin) continue;
+    const auto members = surface.members_of(PartId(p));
+    vertices.insert(vertices.end(), members.begin(), members.end());
+  }
+  return vertices;
+}
+
+/// The edges of the lids of one eye.
+struct EdgesOfEye {
+  SkinVertices upper, lower;
+  double width;
+};
+
+std::vector<EdgesOfEye> edges_of_eyes(const Surface& surface, std::span<const Part> parts,
+                                      std::span<const SurfacePoint> points) {
+  const auto vertices_of = [](const LidEdge& edge) {
+    std::vector<SurfaceVertexId> vertices = edge.to_corner[0];
+    vertices.insert(vertices.end(), edge.to_corner[1].begin(), edge.to_corner[1].end());
+    return vertices;
+  };
+  const auto is_skin = [&](const LidEdge& edge) {
+    return parts[surface.part_of[edge.middle.vertex.value()].value()].role == PartRole::skin;
+  };
+  std::vector<EdgesOfEye> eyes;
+  for (std::size_t eye = 0; eye < 2; ++eye) {
+    const std::optional<EyeEdges> edges = find_eye_edges(surface, points, eye);
+    if (!edges || !is_skin(edges->upper) || !is_skin(edges->lower)) continue;
+    eyes.push_back({SkinVertices(surface, vertices_of(edges->upper)), SkinVertices(surface, vertices_of(edges->lower)),
+                    glm::distance(edges->upper.corners[0].position, edges->upper.corners[1].position)});
+  }
+  return eyes;
+}
+
+/// The edge of the lid whose lash the part is; null if it is none.
+const SkinVertices* edge_of_lash(const Surface& surface, PartId part, std::span<const EdgesOfEye> eyes) {
+  const auto members = surface.members_of(part);
+  for (const EdgesOfEye& eye : eyes) {
+    double nearest = infinite;
+    double farthest = 0.0;
+    std::size_t at_upper = 0;
+    for (const SurfaceVertexId v : members) {
+      const double to_upper = eye.upper.nearest(surface.positions[v.value()]).distance;
+      const double to_lower = eye.lower.nearest(surface.positions[v.value()]).distance;
+      at_upper += to_upper < to_lower ? 1 : 0;
+      nearest = std::min({nearest, to_upper, to_lower});
+      farthest = std::max(farthest, std::min(to_upper, to_lower));
+    }
+    if (nearest > root_from_edge * eye.width || farthest > longest_lash * eye.width) continue;
+    const double upper = static_cast<double>(at_upper) / static_cast<double>(members.size());
+    if (upper >= of_one_lid) return &eye.upper;
+    if (upper <= 1.0 - of_one_lid) return &eye.lower;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+std::vector<std::optional<SurfaceVertexId>> followed_by_attached(const Surface& surface, std::span<const Part> parts,
+                                                                 std::span<const SurfacePoint> points) {
+  std::vector<std::optional<SurfaceVertexId>> followed(surface.vertex_count());
+  const auto is_attached = [](const Part& part) { return part.role == PartRole::attached; };
+  if (std::none_of(parts.begin(), parts.end(), is_attached)) return followed;
+  std::vector<SurfaceVertexId> of_skin = vertices_of_skin(surface, parts);
+  if (of_skin.empty()) return followed;
+  const SkinVertices skin(surface, std::move(of_skin));
+  const std::vector<EdgesOfEye> eyes = edges_of_eyes(surface, parts, points);
+
+  std::vector<double> cost(surface.vertex_count(), infinite);
+  using Entry = std::pair<double, SurfaceVertexId>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  const auto lower = [&](SurfaceVertexId vertex, double to, SurfaceVertexId follows) {
+    if (to >= cost[vertex.value()]) return;
+    cost[vertex.value()] = to;
+    followed[vertex.value()] = follows;
+    queue.emplace(to, vertex);
+  };
+  for (std::uint32_t p = 0; p < parts.size(); ++p) {
+    if (!is_attached(parts[p])) continue;
+    const SkinVertices* const edge = edge_of_lash(surface, PartId(p), eyes);
+    for (const SurfaceVertexId v : surface.members_of(PartId(p))) {
+      const SkinVertices::Hit hit = (edge != nullptr ? *edge : skin).nearest(surface.positions[v.value()]);
+      lower(v, air * hit.distance, hit.vertex);
+    }
+  }
+  while (!queue.empty()) {
+    const auto [so_far, vertex] = queue.top();
+    queue.pop();
+    if (so_far > cost[vertex.value()]) continue;
+    for (const Surface::Step& step : surface.steps_from(vertex)) {
+      lower(step.to, so_far + step.length, *followed[vertex.value()]);
+    }
+  }
+  return followed;
+}
+
+}  // namespace semblante
