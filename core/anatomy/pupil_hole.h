@@ -7,6 +7,7 @@
 
 #include "core/geometry/surface.h"
 #include "core/types/model.h"
+#include "core/types/rig.h"
 
 namespace semblante {
 

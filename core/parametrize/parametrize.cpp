@@ -9,8 +9,10 @@
 #include "core/anatomy/lids.h"
 #include "core/anatomy/lip_gaps.h"
 #include "core/anatomy/neck.h"
+#include "core/anatomy/neck_folds.h"
 #include "core/anatomy/part_roles.h"
 #include "core/anatomy/pivots.h"
+#include "core/anatomy/plausible_joints.h"
 #include "core/anatomy/point_lookup.h"
 #include "core/anatomy/tongue_shape.h"
 #include "core/geometry/unfolded_surface.h"
@@ -183,7 +185,8 @@ Result<Rig> parametrize(const Model& model, const Surface& surface, const Featur
 
   const NeckJoints joints = plausible_joints(model.neck_joints, rig.parts, points);
   rig.head_pivot = head_pivot(rig.parts, points, joints);
-  const std::vector<std::uint8_t> turn = turn_with_head(surface, rig.parts, points, rig.head_pivot, joints);
+  std::vector<std::uint8_t> turn = turn_with_head(surface, rig.parts, points, rig.head_pivot, joints);
+  if (!turn.empty()) unfold_neck(surface, model.triangles, rig.head_pivot, turn);
   rig.weights = rows_of_file_vertices(surface, *weights);
   const std::vector<MouthShare> mouth = share_of_jaw(surface, rig.parts, on_surface);
   rig.influence = rows_of_file_vertices(

@@ -9,7 +9,7 @@
 #include <glm/matrix.hpp>
 
 #include "core/anatomy/front_points.h"
-#include "core/anatomy/neck.h"
+#include "core/anatomy/plausible_joints.h"
 #include "core/anatomy/point_lookup.h"
 #include "core/anatomy/point_order.h"
 #include "core/anatomy/rim_points.h"

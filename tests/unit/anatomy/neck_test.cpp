@@ -6,9 +6,12 @@
 #include <numbers>
 #include <optional>
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "core/anatomy/neck_folds.h"
 #include "core/anatomy/part_roles.h"
+#include "core/anatomy/plausible_joints.h"
 #include "tests/support/meshes.h"
 
 namespace semblante {
@@ -159,6 +162,57 @@ TEST(TurnWithHead, KeepsMeasuredShoulders_NearTheJoint) {
     hinted.find();
     EXPECT_EQ(hinted.turn, measured.turn) << y;
   }
+}
+
+/// Triangles of the figure that face away when its head nods by 0.6 rad, each vertex by its share of the angle.
+int turned_over_by_nodding(const Figure& figure, const glm::vec3& pivot) {
+  const auto nod = [&](std::uint32_t v) {
+    const float angle = 0.6F * static_cast<float>(figure.turn[figure.surface.surface_of[v].value()]) / 255.0F;
+    const glm::vec3 d = figure.model.positions[v] - pivot;
+    return pivot +
+           glm::vec3(d.x, std::cos(angle) * d.y - std::sin(angle) * d.z, std::sin(angle) * d.y + std::cos(angle) * d.z);
+  };
+  int count = 0;
+  for (const Triangle& t : figure.model.triangles) {
+    const auto& p = figure.model.positions;
+    const glm::vec3 before = glm::cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]);
+    const glm::vec3 after = glm::cross(nod(t[1]) - nod(t[0]), nod(t[2]) - nod(t[0]));
+    count += glm::dot(before, after) < 0.0F ? 1 : 0;
+  }
+  return count;
+}
+
+/// The same with shoulders close below the chin.
+double stocky_figure(double y) {
+  if (y > 0.1) return figure(y);
+  if (y > -0.3) return 0.5;
+  return std::min(2.0, 0.5 + 3.0 * (-0.3 - y));
+}
+
+TEST(UnfoldNeck, SpreadsTheTurn_WhereAShortNeckWouldTurnOver) {
+  Figure figure(-2.0, stocky_figure);
+  figure.find();
+  const glm::vec3 pivot(0.0F, 0.6F, -0.8F);  // so far behind that the chin comes down by more than the neck's length
+  ASSERT_FALSE(figure.turn.empty());
+  const std::vector<std::uint8_t> before = figure.turn;
+  const int folded = turned_over_by_nodding(figure, pivot);
+  ASSERT_GT(folded, 0);
+  unfold_neck(figure.surface, figure.model.triangles, pivot, figure.turn);
+  EXPECT_LT(turned_over_by_nodding(figure, pivot), folded);
+  for (std::size_t s = 0; s < before.size(); ++s) {
+    EXPECT_EQ(figure.turn[s] == 0, before[s] == 0);
+    EXPECT_EQ(figure.turn[s] == 255, before[s] == 255);
+  }
+}
+
+TEST(UnfoldNeck, LeavesANeckThatDoesNotTurnOver) {
+  Figure figure(-4.0);
+  figure.find();
+  const glm::vec3 pivot(0.0F, 0.6F, -0.2F);
+  const std::vector<std::uint8_t> before = figure.turn;
+  ASSERT_EQ(turned_over_by_nodding(figure, pivot), 0);
+  unfold_neck(figure.surface, figure.model.triangles, pivot, figure.turn);
+  EXPECT_EQ(figure.turn, before);
 }
 
 TEST(PlausibleJoints, AreBehindTheChin_AndTheNeckBelowIt) {
