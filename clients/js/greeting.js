@@ -1,7 +1,9 @@
 // A file of its own, because a Content-Security-Policy may forbid scripts within a page.
 const face = document.querySelector('semblante-face');
 const status = document.querySelector('[role=status]');
-const speech = new URL('/v1/streams/demo/speech', face.getAttribute('src') || location.href);
+// The element's server: an address, a path on the server of this page, or that server itself.
+const server = new URL(face.getAttribute('src') || '/', location.href).href.replace(/\/+$/, '');
+const speech = `${server}/v1/streams/demo/speech`;
 for (const button of document.querySelectorAll('button'))
   button.onclick = async () => {
     status.textContent = '';
