@@ -23,10 +23,11 @@ namespace {
     case SQLITE_CORRUPT:
     case SQLITE_NOTADB:
       throw DamagedDatabase(message);
+    case SQLITE_BUSY:
+      throw BusyDatabase(message);
     case SQLITE_IOERR:
     case SQLITE_READONLY:
     case SQLITE_CANTOPEN:
-    case SQLITE_BUSY:
     case SQLITE_LOCKED:
     case SQLITE_PERM:
     case SQLITE_NOMEM:

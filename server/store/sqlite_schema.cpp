@@ -163,6 +163,12 @@ constexpr std::array migrations = {
 };
 constexpr int schema_version = migrations.size();
 
+/// Whether it has no table, or is of this program, which has had a table of models from the first version on.
+bool is_ours(Database& db, int version) {
+  Statement tables(db, "SELECT count(*), coalesce(sum(name = 'models'), 0) FROM sqlite_master WHERE type = 'table'");
+  return tables.step() && (version == 0 ? tables.integer(0) == 0 : tables.integer(1) == 1);
+}
+
 }  // namespace
 
 int current_schema_version() { return schema_version; }
@@ -173,11 +179,16 @@ int schema_version_of(Database& db) {
 }
 
 Status bring_up_to_date(Database& db) {
-  const int version = schema_version_of(db);
-  if (version > schema_version)
+  const Error foreign{ErrorCode::malformed, "", "it is the database of another program"};
+  const int found = schema_version_of(db);
+  if (found > 0 && !is_ours(db, found)) return foreign;
+  if (found > schema_version)
     return Error{ErrorCode::unsupported, "", "the data folder was written by a later version of this program"};
-  if (version == schema_version) return Unit{};
+  if (found == schema_version) return Unit{};
   Transaction transaction(db);
+  // Read again: another process may have made the tables before the transaction began.
+  const int version = schema_version_of(db);
+  if (!is_ours(db, version)) return foreign;
   for (int step = version; step < schema_version; ++step) db.execute(migrations[static_cast<std::size_t>(step)]);
   set_schema_version(db);
   transaction.commit();

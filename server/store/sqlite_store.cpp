@@ -70,7 +70,8 @@ class SqliteStore final : private SqliteConnection,
 
 Result<std::unique_ptr<Store>> open_with(const std::filesystem::path& file, Locking locking) {
   auto store = std::make_unique<SqliteStore>(file.string(), locking);
-  if (auto prepared = store->prepare(); !prepared) return prepared.error();
+  if (auto prepared = store->prepare(); !prepared)
+    return Error{prepared.error().code, file.string(), prepared.error().message};
   return Result<std::unique_ptr<Store>>(std::move(store));
 }
 
@@ -80,13 +81,22 @@ Result<std::unique_ptr<Store>> open_sqlite_store(const std::filesystem::path& fi
   try {
     try {
       return open_with(file, Locking::shared);
+    } catch (const BusyDatabase&) {
+      throw;
     } catch (const StoreError&) {
       return open_with(file, Locking::exclusive);
     }
   } catch (const DiskFull&) {
     throw;
+  } catch (const DamagedDatabase& fault) {
+    return Error{ErrorCode::malformed, file.string(),
+                 "it is no database, or a damaged one (" + std::string(fault.what()) +
+                     "); put a backup in its place, or move it away to begin without what it knows"};
+  } catch (const BusyDatabase&) {
+    return Error{ErrorCode::io, file.string(), "another program has it open and holds it"};
   } catch (const std::exception& fault) {
-    return Error{ErrorCode::io, file.string(), fault.what()};
+    const std::string what = fault.what();
+    return Error{ErrorCode::io, what.starts_with(file.string()) ? std::string() : file.string(), what};
   }
 }
 

@@ -25,6 +25,12 @@ class DamagedDatabase : public StoreError {
   using StoreError::StoreError;
 };
 
+/// Another program held the database for longer than is waited for.
+class BusyDatabase : public StoreError {
+ public:
+  using StoreError::StoreError;
+};
+
 /// The disk has less free than a job needs for its files; small writes may succeed.
 class NotEnoughRoom : public DiskFull {
  public:
