@@ -22,18 +22,35 @@ struct TokenOptions {
   std::uint64_t life = 0;  ///< seconds; 0: does not expire
 };
 
-std::unique_ptr<store::Store> open(const TokenOptions& options) {
-  ::umask(S_IRWXG | S_IRWXO);
-  std::error_code error;
-  std::filesystem::create_directories(options.data, error);
-  if (error) throw CommandFailure(CommandFailure::bad_input, "token: --data: " + error.message());
-  auto store = store::open_sqlite_store(options.data / store::database_file_name);
-  if (!store) fail("token: --data", store.error());
-  return std::move(*store);
-}
+/// The first token may be made before the first start of the server, in a folder that is empty yet.
+enum class Folder { used, used_or_empty };
 
 [[noreturn]] void refuse_options(const std::string& message) {
   throw CommandFailure(CommandFailure::bad_input, "token: " + message);
+}
+
+/// A mistyped folder would get a database of its own, with tokens that no server knows.
+void expect_data_folder(const std::filesystem::path& data, Folder folder) {
+  std::error_code error;
+  if (std::filesystem::exists(data / store::database_file_name, error)) return;
+  const auto status = std::filesystem::status(data, error);
+  if (status.type() == std::filesystem::file_type::not_found)
+    refuse_options("--data: there is no folder " + data.string() + "; the first start of the server makes it");
+  if (status.type() != std::filesystem::file_type::directory)
+    refuse_options("--data: " + data.string() + (error ? ": " + error.message() : " is no folder"));
+  const bool is_empty = std::filesystem::is_empty(data, error);
+  if (error) refuse_options("--data: " + data.string() + ": " + error.message());
+  if (folder == Folder::used || !is_empty)
+    refuse_options("--data: there is no " + std::string(store::database_file_name) + " in " + data.string() +
+                   "; the first start of the server makes it");
+}
+
+std::unique_ptr<store::Store> open(const TokenOptions& options, Folder folder) {
+  ::umask(S_IRWXG | S_IRWXO);
+  expect_data_folder(options.data, folder);
+  auto store = store::open_sqlite_store(options.data / store::database_file_name);
+  if (!store) fail("token: --data", store.error());
+  return std::move(*store);
 }
 
 void create(const TokenOptions& options) {
@@ -46,7 +63,7 @@ void create(const TokenOptions& options) {
   access::TokenWish wish{options.name, *scope, options.stream, options.model, {}};
   if (options.life > 0) wish.life = static_cast<std::int64_t>(options.life);
   const auto made = access::make_token(wish);
-  open(options)->add_token(made.record);
+  open(options, Folder::used_or_empty)->add_token(made.record);
   std::cout << made.text << "\n";
   std::cerr << "This is the only time that the token is shown; its id is " << made.record.id << ".\n";
 }
@@ -64,13 +81,13 @@ std::string end_of(const store::TokenRecord& token) {
 }
 
 void list(const TokenOptions& options) {
-  for (const auto& token : open(options)->tokens())
+  for (const auto& token : open(options, Folder::used)->tokens())
     std::cout << token.id << "\t" << token.scope << "\t" << limit_of(token) << "\t" << end_of(token) << "\t"
               << token.name << "\n";
 }
 
 void revoke(const TokenOptions& options) {
-  if (!open(options)->remove_token(options.id)) refuse_options("there is no token " + options.id);
+  if (!open(options, Folder::used)->remove_token(options.id)) refuse_options("there is no token " + options.id);
 }
 
 }  // namespace
@@ -81,7 +98,7 @@ void add_token_command(CLI::App& app) {
       "token", "Create, list and revoke the tokens of a data folder; a running server knows it within a second");
   command->require_subcommand(1);
   const auto add_data = [&](CLI::App* sub) {
-    sub->add_option("--data", options->data, "The server's data folder; made if missing")
+    sub->add_option("--data", options->data, "The server's data folder")
         ->envname("SEMBLANTE_DATA")
         ->capture_default_str();
   };

@@ -108,6 +108,7 @@ class Proxies(unittest.TestCase):
         self.http, self.https = free_ports(2)
 
     def serve(self):
+        (self.folder / "data").mkdir()
         made = support.run(support.PROGRAM, "token", "create", "--data", self.folder / "data", "--scope", "admin")
         self.assertEqual(made.returncode, 0, made.stderr)
         self.token = made.stdout.split()[0]

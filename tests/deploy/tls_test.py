@@ -22,6 +22,7 @@ class Tls(unittest.TestCase):
         cls.context = support.temporary_folder()
         cls.folder = cls.context.__enter__()
         cls.certify("127.0.0.1", "localhost")
+        (cls.folder / "data").mkdir()
         cls.token = cls.make_token("edit")
         cls.server = support.Server(cls.folder / "data", "--demo", "--listen", "127.0.0.1:0", "--tls-cert", cls.folder / "cert.pem", "--tls-key",
                                     cls.folder / "key.pem", "--require-tokens")

@@ -1,5 +1,8 @@
 // Every route and every role on a stream, with no token, an expired, a revoked, a too weak and the right one.
 
+#include <filesystem>
+#include <fstream>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -289,6 +292,35 @@ TEST_F(Scopes, Tokens_AreListedWithoutTheirSecrets) {
   EXPECT_EQ(wrong({{"scope", "read"}, {"expires_in", 0}}), 422);
   EXPECT_EQ(wrong({{"scope", "read"}, {"colour", "red"}}), 422);
   EXPECT_EQ(as(tokens_["admin"], "DELETE", "/v1/tokens/nothing").status, 404);
+}
+
+TEST(TokenCommand, OfAFolderThatIsNoDataFolder_MakesNothing) {
+  const TemporaryFolder folder;
+  const auto run = [](std::vector<std::string> arguments, const std::filesystem::path& data) {
+    arguments.insert(arguments.begin(), "token");
+    arguments.insert(arguments.end(), {"--data", data.string()});
+    return run_semblante(arguments);
+  };
+  const std::vector<std::vector<std::string>> commands = {
+      {"create", "--scope", "admin"}, {"list"}, {"revoke", "nothing"}};
+  const auto missing = folder.path() / "misspelt", foreign = folder.path() / "letters", empty = folder.path() / "new";
+  std::filesystem::create_directory(foreign);
+  std::ofstream(foreign / "to-ana.txt") << "Dear Ana";
+  std::filesystem::create_directory(empty);
+  for (const auto& command : commands) {
+    const auto of_missing = run(command, missing), of_foreign = run(command, foreign);
+    EXPECT_EQ(of_missing.exit_code, 2) << command.front();
+    EXPECT_THAT(of_missing.err, HasSubstr("there is no folder " + missing.string())) << command.front();
+    EXPECT_FALSE(std::filesystem::exists(missing)) << command.front();
+    EXPECT_EQ(of_foreign.exit_code, 2) << command.front();
+    EXPECT_THAT(of_foreign.err, HasSubstr("there is no semblante.sqlite in " + foreign.string())) << command.front();
+    EXPECT_FALSE(std::filesystem::exists(foreign / "semblante.sqlite")) << command.front();
+  }
+  EXPECT_EQ(run({"list"}, empty).exit_code, 2);
+  EXPECT_TRUE(std::filesystem::is_empty(empty));
+  EXPECT_EQ(run({"create", "--scope", "admin"}, folder.path() / "letters/to-ana.txt").exit_code, 2);
+  EXPECT_EQ(run({"create", "--scope", "admin"}, empty).exit_code, 0) << "the first token, before the first start";
+  EXPECT_THAT(run({"list"}, empty).out, HasSubstr("admin"));
 }
 
 TEST(ScopesDocument, IsWhatTheRoutesSay) {
