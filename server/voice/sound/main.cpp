@@ -78,10 +78,21 @@ class Writer {
   std::size_t written_ = 0, most_;
 };
 
+/// Standard input to its end, or its first `most` bytes; memory for what there is, as most files are small.
+std::string read_input(std::size_t most) {
+  constexpr std::size_t step = std::size_t{1} << 20U;
+  std::string file;
+  while (std::cin && file.size() < most) {
+    const auto before = file.size();
+    file.resize(std::min(before + step, most));
+    std::cin.read(file.data() + before, static_cast<std::streamsize>(file.size() - before));
+    file.resize(before + static_cast<std::size_t>(std::cin.gcount()));
+  }
+  return file;
+}
+
 int run() {
-  std::string file(max_sound_file_bytes + 1, '\0');
-  std::cin.read(file.data(), static_cast<std::streamsize>(file.size()));
-  file.resize(static_cast<std::size_t>(std::cin.gcount()));
+  const std::string file = read_input(max_sound_file_bytes + 1);
   if (file.size() > max_sound_file_bytes)
     return refuse("is longer than " + std::to_string(max_sound_file_bytes >> 20U) + " MiB");
   const rlimit none{0, 0};

@@ -73,6 +73,12 @@ TEST(SoundReader, ReadsTheFilesThatPeopleHave) {
   }
 }
 
+TEST(SoundReader, OfASmallFile_NeedsLittleMemory) {
+  VoiceProgram small = reader;
+  small.memory_bytes = std::uint64_t{200} << 20U;  // less than the largest file
+  EXPECT_TRUE(read_sound(small, tone_file(SF_FORMAT_FLAC | SF_FORMAT_PCM_16, 48'000)));
+}
+
 TEST(SoundReader, OtherBytes_AreAnError) {
   EXPECT_NE(read_sound(reader, "no sound").error().message.find("is no sound file"), std::string::npos);
   EXPECT_FALSE(read_sound(reader, ""));
