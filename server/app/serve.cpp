@@ -47,7 +47,7 @@ std::unique_ptr<upkeep::DataLock> lock_data(const std::filesystem::path& data) {
     auto lock = upkeep::DataLock::take(data);
     if (lock) return std::move(*lock);
     if (lock.error().code == ErrorCode::io)
-      fail_input("--data: " + data.string() + " cannot be written: " + lock.error().message);
+      fail_input("--data: the lock of the folder cannot be taken: " + lock.error().message);
     if (std::chrono::steady_clock::now() > deadline)
       fail_input("--data: another server works in " + data.string() + "; stop it or choose another folder");
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
@@ -184,7 +184,8 @@ void run_serve(const ServeOptions& options) {
   log::set_format(*format);
   // What users upload is theirs: other accounts of this machine may not read the data folder, nor what is made in it.
   ::umask(S_IRWXG | S_IRWXO);
-  std::signal(SIGPIPE, SIG_IGN);  // a write to a closed pipe or socket must return an error
+  // A write to a closed pipe or socket, or beyond the limit of a file's size (ulimit -f), must return an error.
+  for (const int number : {SIGPIPE, SIGXFSZ}) std::signal(number, SIG_IGN);
   std::error_code error;
   if (!options.web_root.empty() && !std::filesystem::is_directory(options.web_root, error))
     fail_input("--web-root: " + options.web_root.string() + " is no folder");

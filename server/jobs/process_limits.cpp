@@ -1,6 +1,8 @@
 #include "server/jobs/process_limits.h"
 
 #include <csignal>
+#include <fstream>
+#include <string>
 #include <unistd.h>
 
 #include <sys/prctl.h>
@@ -26,6 +28,11 @@ void limit_process(pid_t process, const WorkerLimits& limits) {
   limit(process, RLIMIT_FSIZE, limits.file_bytes);
   const rlimit none{0, 0};
   ::prlimit(process, RLIMIT_CORE, &none, nullptr);
+}
+
+void end_before_the_server(pid_t process) {
+  constexpr int first_of_all = 1000;
+  std::ofstream("/proc/" + std::to_string(process) + "/oom_score_adj") << first_of_all;
 }
 
 void limit_this_process(const WorkerLimits& limits) {

@@ -20,4 +20,8 @@ void limit_this_process(const WorkerLimits& limits);
 /// Sets the limits of a child that does not limit itself.
 void limit_process(pid_t process, const WorkerLimits& limits);
 
+/// Where the memory of the machine, or of the container, is used up, the kernel ends this child and not the server.
+/// Without /proc it stays the kernel's choice.
+void end_before_the_server(pid_t process);
+
 }  // namespace semblante::jobs

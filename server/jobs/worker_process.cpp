@@ -80,7 +80,7 @@ Result<pid_t> spawn(const std::vector<std::string>& arguments, const Pipe& in, c
   posix_spawnattr_setsigmask(&options.attributes, &none);
   sigset_t defaults;
   sigemptyset(&defaults);
-  for (const int number : {SIGTERM, SIGINT, SIGPIPE}) sigaddset(&defaults, number);
+  for (const int number : {SIGTERM, SIGINT, SIGPIPE, SIGXFSZ}) sigaddset(&defaults, number);
   posix_spawnattr_setsigdefault(&options.attributes, &defaults);
 
   std::vector<char*> argv;
@@ -155,6 +155,7 @@ Result<WorkerExit> run_worker_process(const std::vector<std::string>& arguments,
   auto started = spawn(arguments, in, out, error_file);
   if (!started) return started.error();
   const pid_t pid = *started;
+  end_before_the_server(pid);
   if (limits) limit_process(pid, *limits);
   in.close_read();
   out.close_write();

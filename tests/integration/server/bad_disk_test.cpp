@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/mount.h>
+#include <sys/resource.h>
 
 #include "tests/integration/cli/program.h"
 #include "tests/integration/server/model_flow.h"
@@ -135,6 +136,21 @@ TEST_F(BadDisk, WithoutInodes_IsFull_AndHeals) {
   }
   EXPECT_EQ(request(port, "POST", "/v1/models?filename=a.obj", grid_obj(5), obj_type).status, 202);
   EXPECT_EQ(run_semblante({"check", "--data", data().string()}).exit_code, 0);
+}
+
+TEST_F(BadDisk, LimitOfAFilesSize_IsSaid_AndEndsNothing) {
+  ServerProcess server(data());
+  const auto port = server.port();
+  rlimit before{};
+  ASSERT_EQ(::prlimit(server.pid(), RLIMIT_FSIZE, nullptr, &before), 0);
+  const rlimit small{16'384, before.rlim_max};
+  ASSERT_EQ(::prlimit(server.pid(), RLIMIT_FSIZE, &small, nullptr), 0);
+  EXPECT_EQ(request(port, "POST", "/v1/models?filename=a.obj", grid_obj(60), obj_type).status, 503);
+  EXPECT_EQ(request(port, "GET", "/healthz").status, 200);
+  ASSERT_EQ(::prlimit(server.pid(), RLIMIT_FSIZE, &before, nullptr), 0);
+  EXPECT_TRUE(testing::eventually([&] { return request(port, "GET", "/readyz").status == 200; }));
+  EXPECT_EQ(request(port, "POST", "/v1/models?filename=a.obj", grid_obj(60), obj_type).status, 202);
+  EXPECT_EQ(server.end(SIGTERM), 0);
 }
 
 class DamagedDatabase : public BadDisk {

@@ -44,6 +44,11 @@ TEST_F(WorkerProcessTest, Lines_ComeWholeAndInOrder) {
   EXPECT_EQ(lines_, (std::vector<std::string>{"in", "one", "two"})) << "what has no end is no line";
 }
 
+TEST_F(WorkerProcessTest, IsEndedBeforeItsServer_WhereMemoryEnds) {
+  ASSERT_TRUE(run("cat; echo; cat /proc/self/oom_score_adj"));  // the input comes after all that is set from outside
+  EXPECT_EQ(lines_, (std::vector<std::string>{"in", "1000"}));
+}
+
 TEST_F(WorkerProcessTest, LongInput_ArrivesWhole) {
   ASSERT_TRUE(run("wc -c", Wish::go_on, testing::patience, std::string(1 << 20, 'x')));
   EXPECT_EQ(std::atoi(lines_.at(0).c_str()), 1 << 20);
