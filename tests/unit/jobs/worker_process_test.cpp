@@ -15,7 +15,7 @@ class WorkerProcessTest : public ::testing::Test {
   WorkerProcessTest() {
     std::string name = (std::filesystem::temp_directory_path() / "semblante-worker-XXXXXX").string();
     folder_ = mkdtemp(name.data());
-    std::signal(SIGPIPE, SIG_IGN);
+    for (const int number : {SIGPIPE, SIGXFSZ}) std::signal(number, SIG_IGN);  // as in the server
   }
   ~WorkerProcessTest() override { std::filesystem::remove_all(folder_); }
 
@@ -66,6 +66,13 @@ TEST_F(WorkerProcessTest, Signal_IsNamed) {
   EXPECT_EQ(exit->kind, WorkerExit::Kind::signalled);
   EXPECT_EQ(exit->code, SIGSEGV);
   EXPECT_EQ(exit->last_words, "last words");
+}
+
+TEST_F(WorkerProcessTest, LimitOfAFilesSize_IsTheSignalThatTellsIt) {
+  const auto exit = run("ulimit -f 1; exec head -c 100000 /dev/zero > '" + (folder_ / "large").string() + "'");
+  ASSERT_TRUE(exit);
+  EXPECT_EQ(exit->kind, WorkerExit::Kind::signalled);
+  EXPECT_EQ(exit->code, SIGXFSZ);
 }
 
 TEST_F(WorkerProcessTest, CancelStopAndTime_EndIt) {
