@@ -21,7 +21,7 @@ public struct TimedFrame {
     public Frame Frame;
 }
 
-public enum EventType : uint { None, State, Connect, Close, Header, Keyframe, Frames, Clock, Refused, Fault, End, Sound }
+public enum EventType : uint { None, State, Connect, Close, Header, Keyframe, Frames, Clock, Refused, Fault, End, Sound, Text }
 
 public enum StreamState : uint { Closed, Connecting, Open, Waiting }
 
@@ -69,7 +69,7 @@ static unsafe class Native {
         public ulong Seed;
         public double PingInterval, SilenceLimit, Batch;
         public ulong ResumeEpoch, ResumeSequence;
-        public uint Sound, Text;
+        public uint Sound, Text, Captions, Reserved;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -135,6 +135,8 @@ static unsafe class Native {
     [DllImport(Library)] public static extern uint semblante_stream_next_event(IntPtr stream, ref Event taken);
     [DllImport(Library)] public static extern TimedFrame* semblante_stream_frames(IntPtr stream, out uint count);
     [DllImport(Library)] public static extern int semblante_stream_publish(IntPtr stream, TimedFrame* frames, uint count, double mediaTime, double now);
+    [DllImport(Library)] public static extern int semblante_stream_set_captions(IntPtr stream, uint on);
+    [DllImport(Library)] public static extern int semblante_score_words(byte* score, uint size, double[] times, ref uint count);
     [DllImport(Library)] public static extern int semblante_stream_publish_sound(IntPtr stream, byte[] packet, uint size, double mediaTime);
 
     [DllImport(Library)] public static extern int semblante_player_create(ref PlayerOptions options, out IntPtr player, out Error error);

@@ -126,14 +126,23 @@ public struct StreamEvent {
     public bool IsFinal;
     public double MediaTime;
     public string Where, Message;
+
+    // Of Text, else null: a sentence that is said from MediaTime on. No letters: what is said stops.
+    public string Said, Language;
+    public ulong Number;
+    public double Duration;
+    /// When the words of Said begin, ms after MediaTime: those between spaces, tabs and ends of lines.
+    public double[] WordTimes;
 }
 
 /// One stream across connections. The caller owns the WebSocket (subprotocol "semblante.v1") and moves bytes.
 public sealed unsafe class Stream : Owner {
-    public Stream(bool publish = false, bool takeOver = false, double batch = 0, bool sound = false) {
+    /// captions: Text events come beside the frames of speech.
+    public Stream(bool publish = false, bool takeOver = false, double batch = 0, bool sound = false, bool captions = false) {
         var options = new Native.StreamOptions {
             Size = (uint)sizeof(Native.StreamOptions), Role = publish ? 1u : 0u, TakeOver = takeOver ? 1u : 0u, Batch = batch,
-            Seed = (ulong)Guid.NewGuid().GetHashCode(), Sound = sound ? 1u : 0u
+            Seed = (ulong)Guid.NewGuid().GetHashCode(), Sound = sound ? 1u : 0u,
+            Captions = captions ? 1u : 0u
         };
         Native.Error error;
         int result = Native.semblante_stream_create(ref options, out Handle, out error);
@@ -170,8 +179,21 @@ public sealed unsafe class Stream : Owner {
             Type = (EventType)taken.Type, State = (StreamState)taken.State, Code = taken.Code, IsFinal = taken.IsFinal != 0,
             MediaTime = taken.MediaTime, Where = Text(taken.Error.Where, 96), Message = Text(taken.Error.Message, 256)
         };
+        if (any && happened.Type == EventType.Text) {
+            happened.Said = Text(taken.Text, 2000);
+            happened.Language = Text(taken.Language, 64);
+            happened.Number = taken.Sequence;
+            happened.Duration = taken.Duration;
+            uint words = 0;
+            Check(Native.semblante_score_words(taken.Packet, taken.PacketSize, null, ref words));
+            happened.WordTimes = new double[words];
+            Check(Native.semblante_score_words(taken.Packet, taken.PacketSize, happened.WordTimes, ref words));
+        }
         return any;
     }
+
+    /// Whether Text events come beside the frames of speech; also after a new connection.
+    public void SetCaptions(bool on) { Check(Native.semblante_stream_set_captions(Handle, on ? 1u : 0u)); }
 
     /// The frames of the newest Keyframe or Frames event.
     public TimedFrame[] Frames() {

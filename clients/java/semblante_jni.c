@@ -216,18 +216,50 @@ NATIVE(jbyteArray, streamTakeBytes)(JNIEnv* env, jclass type, jlong stream) {
   return taken;
 }
 
-/* Numbers of the event: type, state, code, is_final, media_time; texts: where, message. False: none. */
-NATIVE(jboolean, streamNextEvent)(JNIEnv* env, jclass type, jlong stream, jdoubleArray numbers, jobjectArray texts) {
+static void set_bytes(JNIEnv* env, jobjectArray to, jsize at, const char* text) {
+  const jsize size = (jsize)strlen(text);
+  jbyteArray bytes = (*env)->NewByteArray(env, size);
+  if (bytes == NULL) return;
+  (*env)->SetByteArrayRegion(env, bytes, 0, size, (const jbyte*)text);
+  (*env)->SetObjectArrayElement(env, to, at, bytes);
+  (*env)->DeleteLocalRef(env, bytes);
+}
+
+/* A TEXT event: the text and its language as UTF-8, which NewStringUTF does not read, and the times of its words. */
+static void set_said(JNIEnv* env, jobjectArray said, const semblante_event* event) {
+  uint32_t count = 0;
+  semblante_score_words(event->packet, event->packet_size, NULL, &count);
+  jdoubleArray times = (*env)->NewDoubleArray(env, (jsize)count);
+  jdouble* first = times == NULL ? NULL : (*env)->GetDoubleArrayElements(env, times, NULL);
+  if (first == NULL) return;
+  semblante_score_words(event->packet, event->packet_size, first, &count);
+  (*env)->ReleaseDoubleArrayElements(env, times, first, 0);
+  set_bytes(env, said, 0, event->text);
+  set_bytes(env, said, 1, event->language);
+  (*env)->SetObjectArrayElement(env, said, 2, times);
+}
+
+/* Numbers of the event: type, state, code, is_final, media_time, sequence, duration; texts: where, message; said: of
+ * TEXT, see set_said(). False: none. */
+NATIVE(jboolean, streamNextEvent)
+(JNIEnv* env, jclass type, jlong stream, jdoubleArray numbers, jobjectArray texts, jobjectArray said) {
   (void)type;
   semblante_event event;
   memset(&event, 0, sizeof event);
   event.size = sizeof event;
   if (semblante_stream_next_event(HANDLE(semblante_stream, stream), &event) == 0) return JNI_FALSE;
-  const double values[5] = {event.type, event.state, event.code, event.is_final, event.media_time};
-  (*env)->SetDoubleArrayRegion(env, numbers, 0, 5, values);
+  const double values[7] = {
+      event.type, event.state, event.code, event.is_final, event.media_time, (double)event.sequence, event.duration};
+  (*env)->SetDoubleArrayRegion(env, numbers, 0, 7, values);
+  if (event.type == SEMBLANTE_EVENT_TEXT) set_said(env, said, &event);
   (*env)->SetObjectArrayElement(env, texts, 0, (*env)->NewStringUTF(env, event.error.where));
   (*env)->SetObjectArrayElement(env, texts, 1, (*env)->NewStringUTF(env, event.error.message));
   return JNI_TRUE;
+}
+
+NATIVE(void, streamSetCaptions)(JNIEnv* env, jclass type, jlong stream, jboolean on) {
+  (void)type;
+  check(env, semblante_stream_set_captions(HANDLE(semblante_stream, stream), on != JNI_FALSE));
 }
 
 NATIVE(jint, streamFrameCount)(JNIEnv* env, jclass type, jlong stream) {

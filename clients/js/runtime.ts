@@ -27,6 +27,7 @@ export interface Functions extends Memory {
   semblante_stream_clock(stream: number, now: number, clock: number): number;
   semblante_stream_measure_clock(stream: number, now: number): void;
   semblante_stream_spoken(stream: number, state: number, speech: bigint, character: number, now: number): number;
+  semblante_stream_set_captions(stream: number, on: number): number;
   semblante_stream_publish(stream: number, frames: number, count: number, mediaTime: number, now: number): number;
   semblante_stream_publish_sound(stream: number, packet: number, size: number, mediaTime: number): number;
 

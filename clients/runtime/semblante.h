@@ -243,6 +243,9 @@ typedef struct semblante_stream_options {
                      sends sound (semblante_stream_publish_sound) */
   uint32_t text;  /* subscriber: 1, the client has a voice of its own: TEXT events in place of frames and sound of
                      speech. semblante_stream_spoken changes it */
+  uint32_t captions; /* subscriber: 1, the client shows what is said: TEXT events beside frames and sound.
+                        semblante_stream_set_captions changes it */
+  uint32_t reserved; /* 0 */
 } semblante_stream_options;
 
 typedef enum semblante_stream_state {
@@ -268,10 +271,11 @@ typedef enum semblante_event_type {
   SEMBLANTE_EVENT_END = 10,     /* the server ends the connection: `code` (semblante_end_reason), `is_final` */
   SEMBLANTE_EVENT_SOUND = 11,   /* a packet of sound, if it was asked for: `media_time` at which it begins to be heard,
                                    `duration`, `packet`, `packet_size` */
-  SEMBLANTE_EVENT_TEXT = 12     /* a sentence for the client's own voice, if it was asked for: `sequence` is its number,
-                                   `text`, `language`, `media_time` at which its first word is to begin, `duration`
-                                   (estimated), and its score in `packet`, `packet_size`. An empty text: the voice is to
-                                   stop. Again with a known number after a new connection: go on */
+  SEMBLANTE_EVENT_TEXT = 12 /* a sentence for the client's own voice or its captions, if it was asked for: `sequence`
+                               is its number, `text`, `language`, `media_time` at which its first word begins,
+                               `duration` (of a voice of its own: estimated), and its score in `packet`,
+                               `packet_size`, see semblante_score_words. An empty text: what is said stops at
+                               `media_time`. Again with a known number after a new connection: go on */
 } semblante_event_type;
 
 /* Of SEMBLANTE_EVENT_HEADER. */
@@ -434,6 +438,15 @@ typedef enum semblante_voice_state {
  * an unknown state, a character over 2000. */
 semblante_result semblante_stream_spoken(semblante_stream* stream, uint32_t state, uint64_t speech, uint32_t character,
                                          double now);
+
+/* Whether TEXT events come beside the frames and the sound of speech, for captions; also after a new connection. OK,
+ * also when the server is told only with the next hello. INVALID_ARGUMENT: not a subscriber. */
+semblante_result semblante_stream_set_captions(semblante_stream* stream, uint32_t on);
+
+/* When the words of a score (TEXT events) begin, ms after `media_time`: those between spaces, tabs and ends of lines of
+ * the text, in order. `count` is the capacity of `times`, then the number of words; BUFFER_TOO_SMALL, and those that
+ * fit, if there are more. `times` may be null to ask. INVALID_ARGUMENT: no score. */
+semblante_result semblante_score_words(const uint8_t* score, uint32_t size, double* times, uint32_t* count);
 
 /* ---- player: frames of a stream -> the pose to show now
  * -------------------------------------------------------------- */

@@ -55,6 +55,22 @@ uint32_t semblante_speaker_show(semblante_speaker* speaker, double now, semblant
   return speaker->it.show(now, *frame) ? 1 : 0;
 }
 
+semblante_result semblante_score_words(const uint8_t* score, uint32_t size, double* times, uint32_t* count) {
+  if (count == nullptr || (score == nullptr && size != 0) || size > max_score_bytes) return SEMBLANTE_INVALID_ARGUMENT;
+  return guarded(nullptr, [&] {
+    const auto read = read_score({score, size});
+    if (!read) return SEMBLANTE_INVALID_ARGUMENT;
+    const std::uint32_t capacity = times == nullptr ? 0 : *count;
+    *count = 0;
+    for (const auto& step : read->steps) {
+      if (!step.begins_word) continue;
+      if (*count < capacity) times[*count] = step.begin;
+      ++*count;
+    }
+    return times == nullptr || *count <= capacity ? SEMBLANTE_OK : SEMBLANTE_BUFFER_TOO_SMALL;
+  });
+}
+
 size_t semblante_speaker_unpack(const uint8_t* packed, size_t size, uint8_t* plain, size_t capacity) {
   if (packed == nullptr || plain == nullptr || size == 0 || packed[0] != packed_text_type) return 0;
   size_t written = 0;

@@ -109,6 +109,7 @@ void Stream::opened(double now) {
   hello.take_over = options_.take_over;
   hello.sound = options_.sound;
   hello.text = options_.text && options_.role == StreamRole::subscribe;
+  hello.captions = options_.captions && options_.role == StreamRole::subscribe;
   send(hello);
 }
 
@@ -261,7 +262,7 @@ void Stream::take_sound(const SoundPacket& sound) {
 
 void Stream::take_text(const SpeechText& text) {
   unanswered_since_ = never;
-  if (!greeted_ || !options_.text) return;
+  if (!greeted_ || !(options_.text || options_.captions)) return;
   Event event = event_of(SEMBLANTE_EVENT_TEXT);
   event.sequence = text.speech;
   event.media_time = static_cast<double>(text.media_time);
@@ -278,6 +279,14 @@ Stream::Published Stream::spoken(Spoken spoken, double now) {
       static_cast<std::uint64_t>(std::clamp(clock_.at(now).value_or(0), 0.0, static_cast<double>(max_media_time)));
   send(spoken);
   return Published::sent;
+}
+
+bool Stream::set_captions(bool on) {
+  if (options_.role != StreamRole::subscribe) return false;
+  if (on == options_.captions) return true;
+  options_.captions = on;
+  if (greeted_) send(CaptionsWish{on});
+  return true;
 }
 
 void Stream::take_pong(const Pong& pong, double now) {

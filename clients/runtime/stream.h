@@ -33,7 +33,8 @@ struct StreamOptions {
   std::size_t max_message_bytes = max_binary_message_bytes;
   std::optional<ResumePoint> resume;
   bool sound = false;
-  bool text = false;  ///< the client has a voice of its own
+  bool text = false;      ///< the client has a voice of its own
+  bool captions = false;  ///< text beside frames and sound
   /// Writes a message in another form than the binary one, for programs that also speak JSON; null: binary. Such a
   /// program reads messages itself and gives them to `take`.
   void (*encode)(const Message&, const QuantizerSteps&, std::vector<std::uint8_t>& to) = nullptr;
@@ -69,6 +70,8 @@ class Stream {
   void measure_clock(double now);
   /// What the client's own voice does; its media time is set here.
   Published spoken(Spoken spoken, double now);
+  /// False: not a subscriber.
+  bool set_captions(bool on);
 
   Outbox& outbox() { return outbox_; }
   Events& events() { return events_; }

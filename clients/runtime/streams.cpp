@@ -36,6 +36,7 @@ StreamOptions to_options(const semblante_stream_options& from) {
   options.batch = from.batch;
   options.sound = from.sound != 0;
   options.text = from.text != 0;
+  options.captions = from.captions != 0;
   if (from.resume_epoch != 0) options.resume = ResumePoint{from.resume_epoch, from.resume_sequence};
   return options;
 }
@@ -234,6 +235,11 @@ semblante_result semblante_stream_spoken(semblante_stream* stream, uint32_t stat
   return guarded(nullptr, [&] {
     return to_result(stream->it.spoken({static_cast<VoiceState>(state), speech, character, 0}, now));
   });
+}
+
+semblante_result semblante_stream_set_captions(semblante_stream* stream, uint32_t on) {
+  if (stream == nullptr) return SEMBLANTE_INVALID_ARGUMENT;
+  return guarded(nullptr, [&] { return stream->it.set_captions(on != 0) ? SEMBLANTE_OK : SEMBLANTE_INVALID_ARGUMENT; });
 }
 
 semblante_result semblante_stream_publish(semblante_stream* stream, const semblante_timed_frame* frames, uint32_t count,

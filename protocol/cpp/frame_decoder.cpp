@@ -138,7 +138,8 @@ Result<Message> read_message(std::span<const std::uint8_t> body) {
 }
 
 template <class M>
-constexpr bool is_of_clients = std::is_same_v<M, Hello> || std::is_same_v<M, Spoken> || std::is_same_v<M, Ping>;
+constexpr bool is_of_clients =
+    std::is_same_v<M, Hello> || std::is_same_v<M, Spoken> || std::is_same_v<M, CaptionsWish> || std::is_same_v<M, Ping>;
 
 template <bool from_server, class... M>
 Result<Message> read_by_type(std::span<const std::uint8_t> bytes, const std::variant<M...>* /*types*/) {

@@ -16,6 +16,8 @@ class BatchListener {
   virtual void taken(std::string_view stream, std::uint64_t epoch, const Frames& batch) = 0;
   /// A packet of sound came; also called with the stream's mutex held. Its time is on the clock of the frames.
   virtual void heard(std::string_view /*stream*/, std::uint64_t /*epoch*/, const SoundPacket& /*sound*/) {}
+  /// A sentence of a speech, of which no letters mean that what is being said stops; the same.
+  virtual void said(std::string_view /*stream*/, std::uint64_t /*epoch*/, const SpeechText& /*text*/) {}
   /// The stream has ended: no frames of this epoch follow. Also called with the stream's mutex held.
   virtual void ended(std::string_view stream) = 0;
 };

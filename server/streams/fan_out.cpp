@@ -56,13 +56,15 @@ void FanOut::add(StreamPeer& client, http::WebSocketSink& sink, Coding coding, W
   subscriber.coding = coding;
   subscriber.listens = wishes.sound;
   subscriber.reads = wishes.text;
+  subscriber.captions = wishes.captions;
   subscriber.away = wishes.text && is_text_;
   subscriber.told = hush_ ? hush_->text.speech : 0;
   subscriber.waits = waits;
   if (wishes.sound) ++listeners_;
   if (wishes.text) ++readers_;
+  if (wishes.captions) ++captioned_;
   count_sent(begin);
-  if (wishes.text) send_texts(subscriber, Clock::now());
+  send_texts(subscriber, Clock::now());
   subscribers_.add(subscriber);
 }
 
@@ -77,6 +79,7 @@ void FanOut::remove_all() {
 void FanOut::drop(std::size_t slot) {
   if (subscribers_[slot].listens) --listeners_;
   if (subscribers_[slot].reads) --readers_;
+  if (subscribers_[slot].captions) --captioned_;
   subscribers_.remove(slot);
 }
 
@@ -96,20 +99,24 @@ void FanOut::push_sound(SoundPacket sound, Clock::time_point due) {
   ++sounds_;
 }
 
-void FanOut::push_text(SpeechText text, Clock::time_point due, Clock::time_point until) {
-  is_text_ = true;
+void FanOut::push_text(SpeechText text, Clock::time_point due, Clock::time_point until, bool replaces) {
+  if (replaces) is_text_ = true;
   std::erase_if(said_, [now = Clock::now()](const Said& one) { return one.until < now; });
-  said_.push_back({text, until, {}});
-  if (readers_ > 0) passes_.push_back({Kind::text, nullptr, std::move(text), {}, due, true});
+  said_.push_back({text, until, replaces, {}});
+  if (captioned_ + (replaces ? readers_ : 0) > 0)
+    passes_.push_back({Kind::text, nullptr, std::move(text), {}, due, replaces});
 }
 
-void FanOut::end_text(std::optional<SpeechText> hush, Clock::time_point now) {
+void FanOut::hush(SpeechText hush, Clock::time_point now) {
+  said_.clear();
+  hush_ = Said{hush, now, is_text_, {}};
+  if (readers_ + captioned_ > 0) passes_.push_back({Kind::text, nullptr, std::move(hush), {}, now, is_text_});
+}
+
+void FanOut::end_text(Clock::time_point now) {
   is_text_ = false;
   said_.clear();
-  if (hush) hush_ = Said{*hush, now, {}};
-  if (readers_ == 0) return;
-  if (hush) passes_.push_back({Kind::text, nullptr, *std::move(hush), {}, now, true});
-  passes_.push_back({Kind::newest, nullptr, {}, {}, now, false});
+  if (readers_ > 0) passes_.push_back({Kind::newest, nullptr, {}, {}, now, false});
 }
 
 bool FanOut::says(Clock::time_point now) const {
@@ -138,6 +145,18 @@ void FanOut::set_reads(StreamPeer& client, bool reads, BatchLog& log) {
   }
 }
 
+void FanOut::set_captions(StreamPeer& client, bool captions) {
+  const auto slot = client.notes().subscriber;
+  if (slot == Subscriber::nowhere || subscribers_[slot].captions == captions) return;
+  auto& subscriber = subscribers_[slot];
+  const bool had_text = subscriber.reads && is_text_;
+  subscriber.captions = captions;
+  captioned_ = captions ? captioned_ + 1 : captioned_ - 1;
+  if (!captions || had_text) return;
+  subscriber.told = hush_ ? hush_->text.speech : 0;
+  send_texts(subscriber, Clock::now());
+}
+
 bool FanOut::send_text(Subscriber& subscriber, Said& said) {
   auto& wire = said.wires[static_cast<std::size_t>(subscriber.coding)];
   if (!wire) {
@@ -156,7 +175,7 @@ bool FanOut::send_text(Subscriber& subscriber, Said& said) {
 
 void FanOut::send_texts(Subscriber& subscriber, Clock::time_point now) {
   for (auto& said : said_)
-    if (said.until >= now && !send_text(subscriber, said)) return;
+    if (said.until >= now && said.is_for(subscriber) && !send_text(subscriber, said)) return;
 }
 
 const http::SharedWire& FanOut::message_wire(Pass& pass, Coding coding) {
@@ -178,7 +197,8 @@ const http::SharedWire* FanOut::next_wire(Slice& slice, Subscriber& subscriber, 
     return nullptr;
   }
   if (pass.kind == Kind::text) {
-    if (!subscriber.reads || subscriber.behind) return nullptr;  // with the newest state come the texts
+    const bool is_for = subscriber.captions || (pass.of_text && subscriber.reads);
+    if (!is_for || subscriber.behind) return nullptr;  // with the newest state come the texts
     subscriber.told = std::get<SpeechText>(pass.message).speech;
     if (!wire) wire = message_wire(pass, subscriber.coding);
     return &wire;
@@ -297,7 +317,8 @@ void FanOut::writable(StreamPeer& client, BatchLog& log) {
 }
 
 void FanOut::send_newest(Subscriber& subscriber, BatchLog& log) {
-  if (subscriber.reads && hush_ && subscriber.told < hush_->text.speech && !send_text(subscriber, *hush_)) return;
+  if (hush_ && hush_->is_for(subscriber) && subscriber.told < hush_->text.speech && !send_text(subscriber, *hush_))
+    return;
   const auto& newest = log.join_point(subscriber.coding);
   const auto sent = subscriber.sink->send(newest, http::Purpose::state);
   if (sent == http::Sent::waits || sent == http::Sent::refused) subscriber.waits = true;
@@ -305,7 +326,7 @@ void FanOut::send_newest(Subscriber& subscriber, BatchLog& log) {
   subscriber.behind = false;
   subscriber.next_batch = log.batches() + 1;
   count_sent(*newest);
-  if (subscriber.reads) send_texts(subscriber, Clock::now());
+  send_texts(subscriber, Clock::now());
 }
 
 std::vector<StreamPeer*> FanOut::remove_stalled(std::chrono::milliseconds patience, Clock::time_point now) {

@@ -41,7 +41,8 @@ class Slice {
 /// Sends batches to the subscribers of a stream, one slice after another. A subscriber that reads too slowly *falls
 /// behind*: its pending messages are dropped, and it gets no batch until its socket is writable again; then it gets the
 /// newest state. Sound goes only to subscribers for whom nothing waits, so that it never takes the place of frames.
-/// *Readers* get the sentences of speech in place of its frames and sound. Not synchronized, but see Slice.
+/// *Readers* get the sentences of speech in place of its frames and sound; who shows captions gets them beside. Not
+/// synchronized, but see Slice.
 class FanOut {
  public:
   using Clock = std::chrono::steady_clock;
@@ -56,6 +57,7 @@ class FanOut {
   struct Wishes {
     bool sound = false;
     bool text = false;
+    bool captions = false;
   };
   /// Adds a subscriber whose `begin` has been sent; the log's next batch is its first. `waits`: part of `begin` is
   /// still in the outbox.
@@ -68,17 +70,21 @@ class FanOut {
   void push(std::shared_ptr<Batch> batch);
   /// Queues a packet of sound for all current listeners; drops it when sending is slow.
   void push_sound(SoundPacket sound, Clock::time_point due);
-  /// Queues a sentence for all current readers and keeps it until `until` for those who come meanwhile. From now on
-  /// readers get neither frames nor sound, until end_text().
-  void push_text(SpeechText text, Clock::time_point due, Clock::time_point until);
-  /// The speech is over: readers get the newest state. Those whose voice may still speak are told to `hush`.
-  void end_text(std::optional<SpeechText> hush, Clock::time_point now);
+  /// Queues a sentence for all who get text and keeps it until `until` for those who come meanwhile. `replaces`: from
+  /// now on readers get neither frames nor sound, until end_text(); else it is for captions alone.
+  void push_text(SpeechText text, Clock::time_point due, Clock::time_point until, bool replaces);
+  /// What is being said stops: its readers and captions are told to `hush`.
+  void hush(SpeechText hush, Clock::time_point now);
+  /// The speech is over: readers get the newest state.
+  void end_text(Clock::time_point now);
   [[nodiscard]] bool is_text() const { return is_text_; }
   /// A sentence is still being said at `now`, as far as was estimated.
   [[nodiscard]] bool says(Clock::time_point now) const;
   /// A subscriber becomes a reader, or one that is none gets frames again.
   void set_reads(StreamPeer& client, bool reads, BatchLog& log);
   [[nodiscard]] bool reads(StreamPeer& client) const;
+  /// A subscriber gets text beside its frames from now on, or no more.
+  void set_captions(StreamPeer& client, bool captions);
   [[nodiscard]] bool is_idle() const { return passes_.empty(); }
   /// False while the queue of batches is full; frames should gather longer then.
   [[nodiscard]] bool has_room() const { return passes_.size() - sounds_ < most_passes; }
@@ -110,14 +116,18 @@ class FanOut {
     Message message;               ///< sound or text
     std::array<http::SharedWire, coding_count> wires;
     Clock::time_point due;
-    bool of_text = false;  ///< frames or sound of a speech whose text readers get
+    bool of_text = false;  ///< of a speech whose text readers get: its frames, its sound or that text
   };
   static const http::SharedWire& message_wire(Pass& pass, Coding coding);
   /// A sentence that is being said.
   struct Said {
     SpeechText text;
     Clock::time_point until;
+    bool for_readers = false;                          ///< else for captions alone
     std::array<http::SharedWire, coding_count> wires;  ///< once somebody came too late for its pass
+    [[nodiscard]] bool is_for(const Subscriber& subscriber) const {
+      return subscriber.captions || (for_readers && subscriber.reads);
+    }
   };
   /// False: the subscriber cannot take more now.
   bool send_text(Subscriber& subscriber, Said& said);
@@ -134,10 +144,11 @@ class FanOut {
   std::size_t sounds_ = 0;     ///< of the passes, those of sound
   std::size_t listeners_ = 0;  ///< subscribers that get the sound
   std::size_t readers_ = 0;
-  bool is_text_ = false;      ///< what enters the stream is a speech whose text readers get
-  std::vector<Said> said_;    ///< at most a few: whoever adds one drops those that have ended
-  std::optional<Said> hush_;  ///< the last one: readers who have fallen behind still get it
-  std::deque<Pass> passes_;   ///< queue; the first is being sent
+  std::size_t captioned_ = 0;  ///< subscribers that get text beside frames
+  bool is_text_ = false;       ///< what enters the stream is a speech whose text readers get
+  std::vector<Said> said_;     ///< at most a few: whoever adds one drops those that have ended
+  std::optional<Said> hush_;   ///< the last one: who has fallen behind still gets it
+  std::deque<Pass> passes_;    ///< queue; the first is being sent
 };
 
 }  // namespace semblante::streams

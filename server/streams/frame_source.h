@@ -62,6 +62,9 @@ class FrameSource {
   [[nodiscard]] virtual std::unique_ptr<SoundCursor> sound_from(double /*ms*/) const { return nullptr; }
   /// Its sentences from the first one at or after `ms` on; null: it has none. They are said once, also of a loop.
   [[nodiscard]] virtual std::unique_ptr<TextCursor> texts_from(double /*ms*/) const { return nullptr; }
+  /// Whether its sentences say all that its frames show, so that a client with a voice of its own needs no frames. Else
+  /// they are for captions alone.
+  [[nodiscard]] virtual bool texts_replace_frames() const { return true; }
   /// Approximate memory use.
   [[nodiscard]] virtual std::size_t bytes() const = 0;
 };

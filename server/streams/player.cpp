@@ -69,13 +69,16 @@ void Player::play_sound(Clock::time_point now) {
 Player::Clock::time_point Player::next_text_time() const {
   const auto* text = finished_ || !texts_ ? nullptr : texts_->current();
   if (text == nullptr) return Clock::time_point::max();
-  return std::max(begin_, time_of(static_cast<double>(text->media_time) - options_.from) - text_lead);
+  // One that stops what is being said has no lead.
+  const auto lead = text->text.empty() ? Clock::duration::zero() : Clock::duration(text_lead);
+  return std::max(begin_, time_of(static_cast<double>(text->media_time) - options_.from) - lead);
 }
 
 void Player::play_texts(Clock::time_point now) {
   while (next_text_time() <= now) {
     const auto& text = *texts_->current();
-    stream_->publish_text(ticket_, time_of(static_cast<double>(text.media_time) - options_.from), text);
+    stream_->publish_text(ticket_, time_of(static_cast<double>(text.media_time) - options_.from), text,
+                          source_->texts_replace_frames());
     texts_->advance();
   }
 }

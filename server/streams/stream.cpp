@@ -241,27 +241,40 @@ Status Stream::publish_sound(StreamPeer& client, SoundPacket sound) {
   return Unit{};
 }
 
-void Stream::publish_text(Ticket ticket, Clock::time_point when, SpeechText text) {
+void Stream::publish_text(Ticket ticket, Clock::time_point when, SpeechText text, bool replaces) {
   const SendAfter after(*this);
   const std::lock_guard lock(mutex_);
   if (ended_ || !sources_.holds(ticket)) return;
+  if (text.text.empty()) return hush(when, Clock::now());
   text.speech = ++speeches_;
   text.media_time = media_time_at(began_, when);
   const auto score = read_score(text.score);
   const auto until = when + std::chrono::milliseconds(score ? score->duration() : 0);
   const auto now = Clock::now();
   if (until < now) return;  // the player was late
-  fan_out_.push_text(std::move(text), now, until);
+  if (listener_) listener_->said(made_.id, made_.epoch, text);
+  fan_out_.push_text(std::move(text), now, until, replaces);
+  want(next_work(now));
+}
+
+void Stream::hush(Clock::time_point when, Clock::time_point now) {
+  SpeechText hush{++speeches_, media_time_at(began_, when), "", "", {}};
+  if (listener_) listener_->said(made_.id, made_.epoch, hush);
+  fan_out_.hush(std::move(hush), now);
   want(next_work(now));
 }
 
 void Stream::end_text() {
-  if (!fan_out_.is_text()) return;
   const auto now = Clock::now();
-  std::optional<SpeechText> hush;
-  if (fan_out_.says(now)) hush = SpeechText{++speeches_, media_time_at(began_, now), "", "", {}};
-  fan_out_.end_text(std::move(hush), now);
+  if (fan_out_.says(now)) hush(now, now);
+  if (!fan_out_.is_text()) return;
+  fan_out_.end_text(now);
   want(next_work(now));
+}
+
+void Stream::show_captions(StreamPeer& client, bool on) {
+  const std::lock_guard lock(mutex_);
+  fan_out_.set_captions(client, on);
 }
 
 Status Stream::spoken(StreamPeer& client, const Spoken& spoken) {
@@ -348,7 +361,8 @@ void Stream::subscribe(StreamPeer& client, http::WebSocketSink& sink, const Hell
     close_as_slow(client);
     return;
   }
-  fan_out_.add(client, sink, coding, {hello.sound, hello.text}, *begin.wire, sent != http::Sent::handed, log_);
+  fan_out_.add(client, sink, coding, {hello.sound, hello.text, hello.captions}, *begin.wire, sent != http::Sent::handed,
+               log_);
 }
 
 void Stream::writable(StreamPeer& client) {

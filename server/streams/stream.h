@@ -58,9 +58,10 @@ class Stream : public StreamAccess, public std::enable_shared_from_this<Stream> 
   Status publish_playing(Ticket ticket, Clock::time_point when, const TimedFrame& frame);
   /// One packet of a player's sound, due at `when`. Dropped when the play has ended.
   void play_sound(Ticket ticket, Clock::time_point when, const std::vector<std::uint8_t>& packet);
-  /// A sentence of this play for clients with a voice of their own; its first word begins at `when`. Until the play
-  /// ends they get neither frames nor sound of it.
-  void publish_text(Ticket ticket, Clock::time_point when, SpeechText text);
+  /// A sentence of this play, whose first word begins at `when`, for captions. `replaces`: also for clients with a
+  /// voice of their own, which get neither frames nor sound of the play until it ends. An empty one: what is being said
+  /// stops.
+  void publish_text(Ticket ticket, Clock::time_point when, SpeechText text, bool replaces = true);
   /// Does nothing when another source holds the stream already. `neutral`: the face returns to neutral.
   void end_playing(Ticket ticket, bool neutral);
   /// A frame of the stream's own filling; dropped while another source feeds the stream or did so recently.
@@ -86,6 +87,7 @@ class Stream : public StreamAccess, public std::enable_shared_from_this<Stream> 
   void writable(StreamPeer& client) override;
   void leave(StreamPeer& client) override;
   Status spoken(StreamPeer& client, const Spoken& spoken) override;
+  void show_captions(StreamPeer& client, bool on) override;
   void answer_dropped() override { ++answers_dropped_; }
 
   // ---- threads of the hub
@@ -111,6 +113,8 @@ class Stream : public StreamAccess, public std::enable_shared_from_this<Stream> 
   void release(StreamPeer& publisher);
   /// The speech whose text was sent is over.
   void end_text();
+  /// What is being said stops.
+  void hush(Clock::time_point when, Clock::time_point now);
   [[nodiscard]] StreamCounts all_counts() const;
   [[nodiscard]] Header header_for(bool recovered, bool sound = false) const;
   [[nodiscard]] Clock::time_point next_work(Clock::time_point now) const;

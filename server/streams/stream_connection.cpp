@@ -119,6 +119,7 @@ void StreamConnection::handle(Message message) {
           [&](const Pong&) {}, [&](const StreamError&) {}, [&](SoundPacket& sound) { handle_sound(std::move(sound)); },
           [&](const SpeechText&) { refuse(StreamErrorCode::invalid_argument, "", "only the server sends text"); },
           [&](const Spoken& spoken) { handle_spoken(spoken); },
+          [&](const CaptionsWish& wish) { handle_captions(wish.on); },
           [&](const Header&) { refuse(StreamErrorCode::invalid_argument, "", "only the server sends a header"); }},
       message);
 }
@@ -164,6 +165,14 @@ void StreamConnection::handle_spoken(const Spoken& spoken) {
     return;
   }
   if (const auto taken = stream_->spoken(*this, spoken); !taken) send(Message(to_stream_error(taken.error())));
+}
+
+void StreamConnection::handle_captions(bool on) {
+  if (role_ != Role::subscribes) {
+    refuse(StreamErrorCode::invalid_argument, "", "this connection publishes: only a subscriber shows captions");
+    return;
+  }
+  stream_->show_captions(*this, on);
 }
 
 void StreamConnection::handle_sound(SoundPacket sound) {

@@ -53,6 +53,7 @@ class StreamConnection : public http::WebSocketPeer, public StreamPeer {
   void handle(Message message);
   void handle_hello(const Hello& hello);
   void handle_spoken(const Spoken& spoken);
+  void handle_captions(bool on);
   void handle_sound(SoundPacket sound);
   void handle_frames(std::uint64_t media_time, const std::vector<TimedFrame>& frames);
 

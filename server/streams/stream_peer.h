@@ -82,6 +82,8 @@ class StreamAccess {
   /// What a subscriber's own voice does. Errors: `out_of_range`, a text that was never sent; `invalid_argument`, a
   /// client that gets frames.
   virtual Status spoken(StreamPeer& client, const Spoken& spoken) = 0;
+  /// Whether a subscriber gets the text of speech beside its frames.
+  virtual void show_captions(StreamPeer& client, bool on) = 0;
   /// An answer was dropped because the client has not read many earlier ones.
   virtual void answer_dropped() = 0;
 };

@@ -25,11 +25,12 @@ struct Subscriber {
   std::uint64_t next_batch = 0;  ///< number of the first batch it has not been sent
   std::uint64_t told = 0;        ///< number of the newest text it has been sent, or need not be
   Coding coding = Coding::packed;
-  bool listens = false;  ///< asked for the sound
-  bool reads = false;    ///< has a voice of its own: gets text in place of the frames and the sound of speech
-  bool away = false;     ///< has missed frames for the sake of text: needs the newest state before the next batch
-  bool behind = false;   ///< needs the newest state before the next batch
-  bool waits = false;    ///< its outbox may have messages
+  bool listens = false;   ///< asked for the sound
+  bool reads = false;     ///< has a voice of its own: gets text in place of the frames and the sound of speech
+  bool captions = false;  ///< gets text beside them
+  bool away = false;      ///< has missed frames for the sake of text: needs the newest state before the next batch
+  bool behind = false;    ///< needs the newest state before the next batch
+  bool waits = false;     ///< its outbox may have messages
 };
 
 /// The subscribers of a stream, contiguous in memory, and the cursor of the pass that sends a batch to them.

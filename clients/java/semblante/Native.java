@@ -28,7 +28,8 @@ final class Native {
     static native double streamWakeTime(long stream);
     static native void streamReceive(long stream, byte[] message, double now);
     static native byte[] streamTakeBytes(long stream);
-    static native boolean streamNextEvent(long stream, double[] numbers, String[] texts);
+    static native boolean streamNextEvent(long stream, double[] numbers, String[] texts, Object[] said);
+    static native void streamSetCaptions(long stream, boolean on);
     static native int streamFrameCount(long stream);
     static native double streamFrame(long stream, int index, float[] numbers);
     static native void streamPublish(long stream, double[] times, float[][] faces, double mediaTime, double now);

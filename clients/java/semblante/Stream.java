@@ -9,8 +9,9 @@ import java.util.Random;
  * a steady clock of the caller's.
  */
 public final class Stream extends Owner {
-    private final double[] numbers = new double[5];
+    private final double[] numbers = new double[7];
     private final String[] texts = new String[2];
+    private final Object[] said = new Object[3];
 
     /** A subscriber. */
     public Stream() {
@@ -68,7 +69,12 @@ public final class Stream extends Owner {
 
     /** null: none. */
     public StreamEvent nextEvent() {
-        return Native.streamNextEvent(handle(), numbers, texts) ? new StreamEvent(numbers, texts) : null;
+        return Native.streamNextEvent(handle(), numbers, texts, said) ? new StreamEvent(numbers, texts, said) : null;
+    }
+
+    /** Whether TEXT events come beside the frames of speech; also after a new connection. */
+    public void setCaptions(boolean on) {
+        Native.streamSetCaptions(handle(), on);
     }
 
     /** The frames of the newest KEYFRAME or FRAMES event. */

@@ -1,8 +1,10 @@
 package semblante;
 
+import java.nio.charset.StandardCharsets;
+
 /** What happened to a stream; see semblante_event of semblante.h. */
 public final class StreamEvent {
-    public enum Type { NONE, STATE, CONNECT, CLOSE, HEADER, KEYFRAME, FRAMES, CLOCK, REFUSED, FAULT, END }
+    public enum Type { NONE, STATE, CONNECT, CLOSE, HEADER, KEYFRAME, FRAMES, CLOCK, REFUSED, FAULT, END, SOUND, TEXT }
 
     public enum State { CLOSED, CONNECTING, OPEN, WAITING }
 
@@ -14,8 +16,16 @@ public final class StreamEvent {
     public final double mediaTime;
     public final String where;
     public final String message;
+    /** Of TEXT, else null: a sentence that is said from `mediaTime` on. No letters: what is said stops. */
+    public final String said;
+    public final String language;
+    /** Of TEXT: its number in the epoch, and ms. */
+    public final long number;
+    public final double duration;
+    /** When the words of `said` begin, ms after `mediaTime`: those between spaces, tabs and ends of lines. */
+    public final double[] wordTimes;
 
-    StreamEvent(double[] numbers, String[] texts) {
+    StreamEvent(double[] numbers, String[] texts, Object[] words) {
         type = Type.values()[(int) numbers[0]];
         state = State.values()[(int) numbers[1]];
         code = (int) numbers[2];
@@ -23,5 +33,11 @@ public final class StreamEvent {
         mediaTime = numbers[4];
         where = texts[0];
         message = texts[1];
+        boolean isText = type == Type.TEXT;
+        said = isText ? new String((byte[]) words[0], StandardCharsets.UTF_8) : null;
+        language = isText ? new String((byte[]) words[1], StandardCharsets.UTF_8) : null;
+        wordTimes = isText ? (double[]) words[2] : null;
+        number = isText ? (long) numbers[5] : 0;
+        duration = isText ? numbers[6] : 0;
     }
 }

@@ -153,7 +153,9 @@ export const streamOptionsLayout = {
   resume_sequence: 72,
   sound: 80,
   text: 84,
-  bytes: 88,
+  captions: 88,
+  reserved: 92,
+  bytes: 96,
 } as const;
 
 export const eventLayout = {

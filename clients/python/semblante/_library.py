@@ -115,6 +115,8 @@ functions = {  # name: (result, arguments)
     "semblante_take_get_warning": (_result, [_handle, c_uint32, POINTER(TakeWarning)]),
     "semblante_take_write": (_result, [c_uint32, _timed, c_uint32, c_double, c_char_p, POINTER(c_size_t), _error]),
     "semblante_stream_spoken": (_result, [_handle, c_uint32, c_uint64, c_uint32, c_double]),
+    "semblante_stream_set_captions": (_result, [_handle, c_uint32]),
+    "semblante_score_words": (_result, [POINTER(c_uint8), c_uint32, POINTER(c_double), _count]),
     "semblante_speaker_create": (_result, [c_uint32, _made, _error]),
     "semblante_speaker_destroy": (None, [_handle]),
     "semblante_speaker_say": (_result, [_handle, POINTER(c_uint8), c_size_t, c_uint32, c_double]),

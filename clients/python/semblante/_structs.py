@@ -210,6 +210,8 @@ class StreamOptions(Sized):
         ("resume_sequence", c_uint64),
         ("sound", c_uint32),
         ("text", c_uint32),
+        ("captions", c_uint32),
+        ("reserved", c_uint32),
     ]
 
 

@@ -45,14 +45,15 @@ class Stream(Owner):
     _destroy = library.semblante_stream_destroy
 
     def __init__(self, *, publish=False, take_over=False, batch=0.0, seed=0, ping_interval=0.0, resume=None, sound=False,
-                 text=False):
+                 text=False, captions=False):
         """`batch`: a publisher's frames of this many ms travel in one message. `resume`: what `resume_point` of an earlier
         object gave. `sound`: SOUND events bring the packets of the stream's sound, or this publisher sends them. `text`: this
-        client has a voice of its own, and TEXT events come in place of frames and sound of speech."""
+        client has a voice of its own, and TEXT events come in place of frames and sound of speech. `captions`: they come
+        beside them."""
         epoch, sequence = resume or (0, 0)
         options = StreamOptions(role=int(publish), take_over=int(take_over), batch=batch, seed=seed,
                                 ping_interval=ping_interval, resume_epoch=epoch, resume_sequence=sequence, sound=int(sound),
-                                text=int(text))
+                                text=int(text), captions=int(captions))
         super().__init__(make(library.semblante_stream_create, ctypes.byref(options)))
 
     def start(self, now):
@@ -109,6 +110,19 @@ class Stream(Owner):
     def spoken(self, state, now, speech=0, character=0):
         """What the client's own voice does, a VoiceState: at a character of the text with that number, or in general."""
         check(library.semblante_stream_spoken(self._handle, state, speech, character, now))
+
+    def set_captions(self, on):
+        """Whether TEXT events come beside frames and sound of speech; also after a new connection."""
+        check(library.semblante_stream_set_captions(self._handle, int(on)))
+
+    @staticmethod
+    def word_times(event):
+        """When the words of the text of a TEXT event begin, ms after its `media_time`: those between spaces, tabs and ends of
+        lines. Before the next event is taken."""
+        count = ctypes.c_uint32(2 * event.packet_size)
+        times = (ctypes.c_double * max(1, count.value))()
+        check(library.semblante_score_words(event.packet, event.packet_size, times, ctypes.byref(count)))
+        return times[:count.value]
 
     def events(self):
         while (event := self.next_event()) is not None:

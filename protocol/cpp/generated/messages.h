@@ -126,6 +126,7 @@ struct Hello {
   bool take_over = false;  ///< for a publisher: replace the current source
   bool sound = false;  ///< for a subscriber: send the sound too; for a publisher: it sends sound
   bool text = false;  ///< for a subscriber with a voice of its own: send text in place of frames and sound of speech
+  bool captions = false;  ///< for a subscriber that shows what is said: send text beside frames and sound of speech
   friend bool operator==(const Hello&, const Hello&) = default;
 };
 
@@ -185,7 +186,7 @@ struct SoundPacket {
   friend bool operator==(const SoundPacket&, const SoundPacket&) = default;
 };
 
-/// A sentence that the client's own voice is to say. An empty text: what is being said, and what waits, is to stop.
+/// A sentence of a speech, for the client's own voice or for captions. An empty text: what is being said, and what waits, is to stop.
 struct SpeechText {
   std::uint64_t speech = 0;  ///< number of this text within the epoch; increases
   std::uint64_t media_time = 0;  ///< ms; when its first word is to begin, on the clock of the frames
@@ -204,6 +205,12 @@ struct Spoken {
   friend bool operator==(const Spoken&, const Spoken&) = default;
 };
 
+/// Changes the wish of the hello: whether text comes beside frames and sound of speech.
+struct CaptionsWish {
+  bool on = false;
+  friend bool operator==(const CaptionsWish&, const CaptionsWish&) = default;
+};
+
 /// Requests the clocks of server and stream.
 struct Ping {
   std::uint32_t id = 0;  ///< returned in the pong
@@ -220,7 +227,7 @@ struct Pong {
   friend bool operator==(const Pong&, const Pong&) = default;
 };
 
-using Message = std::variant<Hello, Header, Keyframe, Frames, End, StreamError, SoundPacket, SpeechText, Spoken, Ping, Pong>;
+using Message = std::variant<Hello, Header, Keyframe, Frames, End, StreamError, SoundPacket, SpeechText, Spoken, CaptionsWish, Ping, Pong>;
 
 /// First byte of the binary form and `type` of the JSON form, for each message.
 template <class M>
@@ -271,6 +278,11 @@ struct MessageTraits<Spoken> {
   static constexpr std::string_view name = "spoken";
 };
 template <>
+struct MessageTraits<CaptionsWish> {
+  static constexpr std::uint8_t type = 14;
+  static constexpr std::string_view name = "captions";
+};
+template <>
 struct MessageTraits<Ping> {
   static constexpr std::uint8_t type = 7;
   static constexpr std::string_view name = "ping";
@@ -308,6 +320,7 @@ void visit_fields(M& m, V& v) {
   v.boolean("take_over", m.take_over, Presence::appended);
   v.boolean("sound", m.sound, Presence::appended);
   v.boolean("text", m.text, Presence::appended);
+  v.boolean("captions", m.captions, Presence::appended);
 }
 
 template <class M, class V>
@@ -383,6 +396,12 @@ void visit_fields(M& m, V& v) {
   v.uint("speech", m.speech, 9007199254740991U, Presence::defaulted);
   v.uint("character", m.character, 2000U, Presence::defaulted);
   v.uint("media_time", m.media_time, 9007199254740991U, Presence::defaulted);
+}
+
+template <class M, class V>
+  requires std::same_as<std::remove_const_t<M>, CaptionsWish>
+void visit_fields(M& m, V& v) {
+  v.boolean("on", m.on, Presence::required);
 }
 
 template <class M, class V>

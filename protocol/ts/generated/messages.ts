@@ -64,6 +64,8 @@ export interface Hello {
   sound: boolean;
   /** for a subscriber with a voice of its own: send text in place of frames and sound of speech */
   text: boolean;
+  /** for a subscriber that shows what is said: send text beside frames and sound of speech */
+  captions: boolean;
 }
 
 /** The first message of a server: properties of the stream and its encoding. */
@@ -145,7 +147,7 @@ export interface SoundPacket {
   packet: Uint8Array;
 }
 
-/** A sentence that the client's own voice is to say. An empty text: what is being said, and what waits, is to stop. */
+/** A sentence of a speech, for the client's own voice or for captions. An empty text: what is being said, and what waits, is to stop. */
 export interface SpeechText {
   type: 'text';
   /** number of this text within the epoch; increases */
@@ -171,6 +173,12 @@ export interface Spoken {
   media_time: number;
 }
 
+/** Changes the wish of the hello: whether text comes beside frames and sound of speech. */
+export interface CaptionsWish {
+  type: 'captions';
+  on: boolean;
+}
+
 /** Requests the clocks of server and stream. */
 export interface Ping {
   type: 'ping';
@@ -193,7 +201,7 @@ export interface Pong {
   media_time: number;
 }
 
-export type Message = Hello | Header | Keyframe | Frames | End | StreamError | SoundPacket | SpeechText | Spoken | Ping | Pong;
+export type Message = Hello | Header | Keyframe | Frames | End | StreamError | SoundPacket | SpeechText | Spoken | CaptionsWish | Ping | Pong;
 
 /** Texts of an enumeration by value. An open one reads values it does not know as its first. */
 export interface EnumValues {
@@ -255,6 +263,7 @@ export const messages: readonly MessageDescription[] = [
       { name: 'take_over', type: 'bool', appended: true, required: false, fallback: false },
       { name: 'sound', type: 'bool', appended: true, required: false, fallback: false },
       { name: 'text', type: 'bool', appended: true, required: false, fallback: false },
+      { name: 'captions', type: 'bool', appended: true, required: false, fallback: false },
     ],
   },
   {
@@ -338,6 +347,13 @@ export const messages: readonly MessageDescription[] = [
       { name: 'speech', type: 'uint', max: 9007199254740991, required: false, fallback: 0 },
       { name: 'character', type: 'uint', max: 2000, required: false, fallback: 0 },
       { name: 'media_time', type: 'uint', max: 9007199254740991, required: false, fallback: 0 },
+    ],
+  },
+  {
+    type: 14,
+    name: 'captions',
+    fields: [
+      { name: 'on', type: 'bool', required: true, fallback: false },
     ],
   },
   {

@@ -45,6 +45,61 @@ TEST(Text, Hello_AsksForIt_IfASubscriberWishes) {
   }
 }
 
+TEST(Text, Captions_AreAskedForByHelloAndChangedLater) {
+  auto options = ScriptedServer::usual();
+  options.captions = 1;
+  ScriptedServer server(options);
+  semblante_stream_start(server.stream, 1000);
+  const auto hello = server.open(1000);
+  EXPECT_TRUE(hello.captions);
+  EXPECT_FALSE(hello.text);
+  server.greet(ScriptedServer::header(7, 5000), {10, 5000, face(0)}, 1000);
+  server.events();
+  server.say(text, 1010);
+  EXPECT_EQ(next_event(server.stream).type, static_cast<std::uint32_t>(SEMBLANTE_EVENT_TEXT));
+  server.sent();
+  EXPECT_EQ(semblante_stream_set_captions(server.stream, 0), SEMBLANTE_OK);
+  EXPECT_EQ(semblante_stream_set_captions(server.stream, 0), SEMBLANTE_OK);
+  const auto sent = server.sent();
+  ASSERT_EQ(sent.size(), 1U) << "once";
+  EXPECT_FALSE(std::get<CaptionsWish>(sent[0]).on);
+  server.say(text, 1020);
+  EXPECT_TRUE(server.events().empty()) << "the server had sent it before it knew";
+  semblante_stream_closed(server.stream, 0, 1100);
+  EXPECT_EQ(semblante_stream_set_captions(server.stream, 1), SEMBLANTE_OK);
+  semblante_stream_start(server.stream, 1200);
+  EXPECT_TRUE(server.open(1200).captions);
+}
+
+TEST(Text, CaptionsOfAPublisher_AreRefused) {
+  auto options = ScriptedServer::usual();
+  options.role = SEMBLANTE_ROLE_PUBLISH;
+  options.captions = 1;
+  ScriptedServer server(options);
+  semblante_stream_start(server.stream, 1000);
+  EXPECT_FALSE(server.open(1000).captions);
+  EXPECT_EQ(semblante_stream_set_captions(server.stream, 1), SEMBLANTE_INVALID_ARGUMENT);
+  EXPECT_EQ(semblante_stream_set_captions(nullptr, 1), SEMBLANTE_INVALID_ARGUMENT);
+}
+
+TEST(Text, WordsOfAScore_HaveTheirTimes) {
+  std::uint32_t count = 0;
+  EXPECT_EQ(semblante_score_words(score.data(), 4, nullptr, &count), SEMBLANTE_OK);
+  EXPECT_EQ(count, 2U);
+  std::array<double, 2> times{};
+  EXPECT_EQ(semblante_score_words(score.data(), 4, times.data(), &count), SEMBLANTE_OK);
+  EXPECT_THAT(times, ElementsAre(0, 180));
+  count = 1;
+  EXPECT_EQ(semblante_score_words(score.data(), 4, times.data(), &count), SEMBLANTE_BUFFER_TOO_SMALL);
+  EXPECT_EQ(count, 2U);
+  const Bytes none = {0xf7};
+  EXPECT_EQ(semblante_score_words(none.data(), 1, nullptr, &count), SEMBLANTE_INVALID_ARGUMENT);
+  EXPECT_EQ(semblante_score_words(nullptr, 1, nullptr, &count), SEMBLANTE_INVALID_ARGUMENT);
+  EXPECT_EQ(semblante_score_words(score.data(), 4, nullptr, nullptr), SEMBLANTE_INVALID_ARGUMENT);
+  EXPECT_EQ(semblante_score_words(nullptr, 0, nullptr, &count), SEMBLANTE_OK);
+  EXPECT_EQ(count, 0U);
+}
+
 TEST(Text, Sentence_IsAnEventWithAllOfIt) {
   ScriptedServer server(reading());
   server.begin(1000);

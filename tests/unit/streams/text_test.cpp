@@ -9,7 +9,8 @@
 #include "tests/unit/streams/fake_socket.h"
 #include "tests/unit/streams/feeding.h"
 
-/// Speech as text for clients with a voice of their own: who gets it, what they do not get, and how they come back.
+/// Speech as text, for clients with a voice of their own and for captions: who gets it, what they do not get, and how
+/// they come back.
 namespace semblante::streams {
 namespace {
 
@@ -294,6 +295,157 @@ TEST_F(TextTest, Player_SendsASentenceASecondBeforeItsTime) {
   const auto second = all_of<SpeechText>(reads->take_all());
   ASSERT_EQ(second.size(), 1U);
   EXPECT_EQ(second[0].media_time - std::get<SpeechText>(first[0]).media_time, 1880U);
+}
+
+// ---- captions
+
+class CaptionsTest : public TextTest {
+ protected:
+  static Hello hello() {
+    Hello hello;
+    hello.captions = true;
+    return hello;
+  }
+  std::shared_ptr<FakeClient> viewer() {
+    auto client = connect(hello());
+    client->take_all();
+    return client;
+  }
+  static void wish(FakeClient& client, bool on) {
+    client.connection->receive(encode_json(Message(CaptionsWish{on})), false);
+  }
+};
+
+TEST_F(CaptionsTest, Viewer_GetsTextBesideFramesAndSound) {
+  auto wishes = hello();
+  wishes.sound = true;
+  const auto sees = connect(wishes);
+  sees->take_all();
+  text();
+  frame(0, 5);
+  stream_->play_sound(ticket_, began_, {0x18, 1});
+  const auto got = sees->take_all();
+  ASSERT_EQ(got.size(), 3U);
+  EXPECT_EQ(std::get<SpeechText>(got[0]).text, "Good day");
+  EXPECT_EQ(all_of<Frames>(got).size(), 1U);
+  EXPECT_EQ(all_of<SoundPacket>(got).size(), 1U);
+}
+
+TEST_F(CaptionsTest, NotAskedFor_ChangeNoByte) {
+  const auto plain = connect({});
+  plain->socket->take_payloads();
+  frame(0, 5);
+  text();
+  frame(40, 5);
+  const auto sees = viewer();
+  wish(*sees, false);
+  stream_->end_playing(ticket_, false);
+  EXPECT_EQ(plain->socket->take_payloads().size(), 2U) << "the frames alone";
+}
+
+TEST_F(CaptionsTest, ReaderThatShowsThem_GetsEachTextOnceAndNoFrames) {
+  auto wishes = hello();
+  wishes.text = true;
+  const auto reads = connect(wishes);
+  reads->take_all();
+  text();
+  frame(0, 5);
+  const auto got = reads->take_all();
+  ASSERT_EQ(got.size(), 1U);
+  EXPECT_TRUE(std::holds_alternative<SpeechText>(got[0]));
+  wish(*reads, false);
+  wish(*reads, true);
+  EXPECT_TRUE(reads->take_all().empty()) << "it has it already";
+}
+
+TEST_F(CaptionsTest, LateViewer_GetsWhatIsBeingSaid) {
+  text();
+  text(2000);
+  frame(0, 5);
+  const auto late = connect(hello());
+  const auto texts = all_of<SpeechText>(late->take_all());
+  ASSERT_EQ(texts.size(), 2U);
+  EXPECT_EQ(texts[0].speech, 1U);
+  EXPECT_EQ(texts[1].media_time - texts[0].media_time, 2000U);
+}
+
+TEST_F(CaptionsTest, Resume_BringsAllFramesAndTheTextAgain) {
+  const auto sees = viewer();
+  frame(0, 1);
+  text();
+  for (int k = 1; k < 5; ++k) frame(40 * k, 5);
+  auto wishes = hello();
+  wishes.resume = ResumePoint{7, 1};
+  const auto back = connect(wishes);
+  const auto got = back->take_all();
+  EXPECT_TRUE(std::get<Header>(got.at(0)).recovered) << "unlike a reader it misses no frame";
+  EXPECT_EQ(all_of<Frames>(got).size(), 4U);
+  EXPECT_EQ(all_of<SpeechText>(got).at(0).speech, 1U) << "the number that it knows";
+}
+
+TEST_F(CaptionsTest, Wish_ChangesWhileFramesGoOn) {
+  const auto sees = connect({});
+  sees->take_all();
+  text();
+  frame(0, 5);
+  EXPECT_EQ(sees->take_all().size(), 1U);
+  wish(*sees, true);
+  EXPECT_EQ(all_of<SpeechText>(sees->take_all()).size(), 1U) << "what is being said";
+  text(500);
+  EXPECT_EQ(all_of<SpeechText>(sees->take_all()).size(), 1U);
+  wish(*sees, false);
+  text(1000);
+  frame(40, 6);
+  const auto got = sees->take_all();
+  ASSERT_EQ(got.size(), 1U);
+  EXPECT_TRUE(std::holds_alternative<Frames>(got[0]));
+}
+
+TEST_F(CaptionsTest, SpeechThatIsStopped_EndsThem_AndOneThatIsOverDoesNot) {
+  const auto sees = viewer();
+  text();
+  frame(0, 5);
+  sees->take_all();
+  stream_->end_playing(ticket_, false);
+  const auto got = sees->take_all();
+  ASSERT_EQ(got.size(), 1U) << "no keyframe: it has all frames";
+  EXPECT_EQ(std::get<SpeechText>(got[0]).text, "");
+  EXPECT_EQ(std::get<SpeechText>(got[0]).speech, 2U);
+}
+
+TEST_F(CaptionsTest, SlowViewer_GetsNewestStateAndText) {
+  const auto slow = viewer();
+  slow->socket->stop_reading();
+  for (int k = 0; k < 8; ++k) frame(40 * k, static_cast<std::int16_t>(k));
+  text();
+  slow->socket->read_again(*slow->connection);
+  const auto got = slow->take_all();
+  EXPECT_EQ(all_of<Keyframe>(got).size(), 1U);
+  EXPECT_EQ(all_of<SpeechText>(got).size(), 1U);
+}
+
+TEST_F(CaptionsTest, TextBesideFramesThatAreNotAllSpeech_IsForCaptionsAlone) {
+  const auto sees = viewer();
+  const auto reads = reader();
+  stream_->publish_text(ticket_, began_, sentence(), false);
+  frame(0, 5);
+  EXPECT_EQ(all_of<SpeechText>(sees->take_all()).size(), 1U);
+  const auto got = reads->take_all();
+  ASSERT_EQ(got.size(), 1U);
+  EXPECT_TRUE(std::holds_alternative<Frames>(got[0]));
+  stream_->publish_text(ticket_, began_ + milliseconds(100), {}, false);
+  EXPECT_EQ(all_of<SpeechText>(sees->take_all()).at(0).text, "");
+  EXPECT_TRUE(reads->take_all().empty());
+}
+
+TEST_F(CaptionsTest, WishOfAPublisher_IsRefused) {
+  Hello hello;
+  hello.role = StreamRole::publish;
+  hello.take_over = true;
+  const auto publisher = connect(hello);
+  publisher->take_all();
+  wish(*publisher, true);
+  EXPECT_EQ(all_of<StreamError>(publisher->take_all()).at(0).code, StreamErrorCode::invalid_argument);
 }
 
 }  // namespace
