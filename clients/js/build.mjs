@@ -34,7 +34,7 @@ const dracoModule = await transform(`${dracoScript}\nexport default DracoDecoder
 });
 
 await build({
-  entryPoints: { index: 'npm.ts', draco: 'draco/index.ts', element: 'element/index.ts', listen: 'listen/npm.ts', listen_worklet: 'listen/worklet.ts', motion: 'motion/npm.ts', sound: 'sound/index.ts', speech: 'speech/index.ts', three: 'three/index.ts' },
+  entryPoints: { index: 'npm.ts', captions: 'captions/index.ts', draco: 'draco/index.ts', element: 'element/index.ts', listen: 'listen/npm.ts', listen_worklet: 'listen/worklet.ts', motion: 'motion/npm.ts', sound: 'sound/index.ts', speech: 'speech/index.ts', three: 'three/index.ts' },
   absWorkingDir: here,
   outdir: dist,
   bundle: true,

@@ -46,7 +46,7 @@ export interface StreamEvents {
   clock: ClockSample;
   /** A packet of the sound, if it was asked for. */
   sound: SoundPacket;
-  /** A sentence for the client's own voice, if it was asked for. */
+  /** A sentence for the client's own voice or for captions, if it was asked for. */
   text: SpokenText;
   /** A message of any kind was received. */
   message: void;
@@ -60,17 +60,17 @@ export interface SoundPacket {
   packet: Uint8Array<ArrayBuffer>;
 }
 
-/** A sentence that the client's own voice is to say. Times in ms. */
+/** A sentence of a speech. Times in ms. */
 export interface SpokenText {
   /** Its number within the epoch. */
   speech: number;
-  /** When its first word is to begin, on the clock of the frames. */
+  /** When its first word begins, on the clock of the frames. */
   mediaTime: number;
-  /** As the server estimates it. */
+  /** Of a voice of the client's own: as the server estimates it. */
   duration: number;
   /** BCP 47; empty: unknown. */
   language: string;
-  /** Empty: what is being said, and what waits, is to stop. */
+  /** Empty: what is being said stops at `mediaTime`, and what waits is not said. */
   text: string;
   /** What the mouth does when: section 2.2 of SPEC.md. */
   score: Uint8Array<ArrayBuffer>;
@@ -93,6 +93,8 @@ export interface StreamOptions {
   sound?: boolean;
   /** For a subscriber with a voice of its own: text in place of the frames and the sound of speech. Default false. */
   text?: boolean;
+  /** For a subscriber that shows what is said: text beside the frames and the sound of speech. Default false. */
+  captions?: boolean;
   /**
    * For a server that asks for tokens, from a page that is not its own: sent as a subprotocol, because a browser's
    * WebSocket carries no header.
@@ -196,6 +198,7 @@ export class StreamClient extends Emitter<StreamEvents> {
       takeOver: false,
       sound: false,
       text: false,
+      captions: false,
       WebSocket: globalThis.WebSocket,
       now: () => performance.now(),
       backoff: { first: 250, longest: 10_000 },
@@ -286,6 +289,14 @@ export class StreamClient extends Emitter<StreamEvents> {
     });
   }
 
+  /** Whether text comes beside the frames and the sound of speech, from now on and after a new connection. */
+  setCaptions(on: boolean): void {
+    this.withStream(({ runtime, stream }) => {
+      runtime.functions.semblante_stream_set_captions(stream, on ? 1 : 0);
+      this.act();
+    });
+  }
+
   /** Sends several pings quickly, after a pause in which the machine may have slept. Their pongs are `clock` events. */
   measureClock(): void {
     if (this.memory === null) return;
@@ -301,7 +312,7 @@ export class StreamClient extends Emitter<StreamEvents> {
 
   private made(runtime: Runtime): StreamMemory {
     if (this.memory) return this.memory;
-    const { role, takeOver, sound, text, backoff, pingInterval } = this.options;
+    const { role, takeOver, sound, text, captions, backoff, pingInterval } = this.options;
     const memory = new StreamMemory(runtime, (view, at) => {
       const of = streamOptionsLayout;
       view.setUint32(at + of.role, role === 'publish' ? 1 : 0, true);
@@ -313,6 +324,7 @@ export class StreamClient extends Emitter<StreamEvents> {
       view.setFloat64(at + of.ping_interval, pingInterval || -1, true);
       view.setUint32(at + of.sound, sound ? 1 : 0, true);
       view.setUint32(at + of.text, text ? 1 : 0, true);
+      view.setUint32(at + of.captions, captions ? 1 : 0, true);
     });
     this.memory = memory;
     this.release = runtime.owns(this, releaseStream, memory);

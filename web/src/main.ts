@@ -35,6 +35,7 @@ import { languageSelect } from './ui/page/language.ts';
 import { noFaceNotice } from './ui/animate/no_face_notice.ts';
 import { LevelsPanel } from './ui/animate/levels_panel.ts';
 import { LiveSound } from './ui/live/live_sound.ts';
+import { LiveCaptions } from './ui/live/live_captions.ts';
 import { LiveOverlay } from './ui/live/live_overlay.ts';
 import { LiveModel } from './ui/live/live_model.ts';
 import { LivePanel } from './ui/live/live_panel.ts';
@@ -158,11 +159,12 @@ function main(root: HTMLElement, session: Session | null, theme: HTMLElement): v
   const performance = new PerformancePanel(new PerformanceModel(studio, live), live, toasts);
   const recordingsPanel = new RecordingsPanel(recordings, live, studio);
   const overlay = new LiveOverlay(live, driver);
-  const livePanel = new LivePanel(studio, live, liveSound, new StreamSpeechPanel(makeForm, inStream).element, performance.element, recordingsPanel.element, overlay.on);
+  const captions = new LiveCaptions(live, driver, () => scene.performer.value?.player.stats ?? null, () => liveSound.mediaTime);
+  const livePanel = new LivePanel(studio, live, liveSound, new StreamSpeechPanel(makeForm, inStream).element, performance.element, recordingsPanel.element, { figures: overlay.on, captions: captions.on });
   const chip = makeDriverChip({ driver, live, clip: clip.shown, recordings, scene, tab: studio.tab });
   const picker = new PointPicker(scene, points, hidden);
   const stagePanel = new StagePanel(canvas, scene, studio, points, picker, [chip, compare.label], influence.on);
-  stagePanel.element.append(influenceLegend(influence, scene), overlay.element, reader.element, reader.said);
+  stagePanel.element.append(influenceLegend(influence, scene), overlay.element, captions.element, reader.element, reader.said);
   // Loaded when points can be dragged, not with the first picture.
   const untilPoints = studio.tab.watch((tab) => {
     if (tab !== 'points') return;

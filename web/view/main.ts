@@ -2,6 +2,7 @@ import './view.css';
 import { type Connection, SemblanteFace } from 'semblante/element';
 import { acceptInvitation } from './invitation.ts';
 import { keepOffline } from '../offline/register.ts';
+import { captionsAreChosen, chooseCaptions } from '../kept/captions_choice.ts';
 import { stayAwake } from './wake_lock.ts';
 
 /** "/view/demo", also below a path of a proxy: the server's address and the stream's id. */
@@ -28,7 +29,7 @@ function svg(inside: string): SVGSVGElement {
   return picture;
 }
 
-/** The page: one face, how its connection is, and a button that pauses it. */
+/** The page: one face, how its connection is, and buttons for captions and to pause it. */
 async function main(root: HTMLElement): Promise<void> {
   const { base, stream } = placeOf(location.pathname);
   if (stream === '') {
@@ -47,6 +48,7 @@ async function main(root: HTMLElement): Promise<void> {
   face.sound = true;
   // "?voice": this device's own voice, for the thinnest wire.
   face.voice = new URLSearchParams(location.search).has('voice');
+  face.captions = captionsAreChosen();
   face.tabIndex = 0;
 
   const bars = document.createElement('span');
@@ -59,10 +61,21 @@ async function main(root: HTMLElement): Promise<void> {
   button.type = 'button';
   button.hidden = true;
   button.addEventListener('click', () => (face.paused ? face.play() : face.pause()));
+  const captions = document.createElement('button');
+  captions.type = 'button';
+  captions.title = 'Captions';
+  captions.setAttribute('aria-label', 'Captions');
+  captions.setAttribute('aria-pressed', String(face.captions));
+  captions.append(svg('<path fill-rule="evenodd" d="M4 5h16a2 2 0 0 1 2 2v10a2 2 0 0 1-2 2H4a2 2 0 0 1-2-2V7a2 2 0 0 1 2-2zm1 6v2h4v-2zm6 0v2h8v-2zm-6 4v2h8v-2zm10 0v2h4v-2z"/>'));
+  captions.addEventListener('click', () => {
+    face.captions = !face.captions;
+    captions.setAttribute('aria-pressed', String(face.captions));
+    chooseCaptions(face.captions);
+  });
   const corner = document.createElement('div');
   corner.className = 'corner';
   corner.hidden = true;
-  corner.append(button, bars, words);
+  corner.append(captions, button, bars, words);
   root.replaceChildren(face, corner);
 
   const refresh = (): void => {
@@ -77,7 +90,7 @@ async function main(root: HTMLElement): Promise<void> {
       button.title = label;
       button.replaceChildren(svg(`<path d="${face.paused ? paths.play : paths.pause}"/>`));
     }
-    button.hidden = face.state === 'error' || face.state === 'ended';
+    captions.hidden = button.hidden = face.state === 'error' || face.state === 'ended';
   };
   face.addEventListener('statechange', refresh);
   setInterval(refresh, 1000);

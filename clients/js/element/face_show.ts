@@ -10,6 +10,7 @@ import { frameOf, type Fit } from '../view/framing.ts';
 import { fewerPixels, Pace, type Step } from '../view/pace.ts';
 import { loadRuntime } from '../wasm.ts';
 import { budgetOf, cheaperSteps, firstVertices, thisDevice, type Budget, type QualityName } from './detail.ts';
+import type { Cue, StreamCaptions } from '../captions/index.ts';
 import type { StreamSound } from '../sound/index.ts';
 import type { StreamSpeech } from '../speech/index.ts';
 import { Link } from './link.ts';
@@ -29,6 +30,8 @@ export interface ShowEvents {
   trouble: FaceTrouble | null;
   /** The stream has sound or not, or it is heard or not; the same of the browser's own voice. */
   sound: void;
+  /** Other words are said in the picture that is shown; null: none. */
+  cue: Cue | null;
 }
 
 export interface ShowOptions {
@@ -67,6 +70,8 @@ export class FaceShow extends Emitter<ShowEvents> {
 
   private sound: StreamSound | null = null;
   private speech: StreamSpeech | null = null;
+  private captions: StreamCaptions | null = null;
+  private roomBelow = (): number => 0;
   private readonly renderer: FaceRenderer;
   private render: RenderQuality;
   private readonly budget: Budget;
@@ -170,6 +175,26 @@ export class FaceShow extends Emitter<ShowEvents> {
     else this.speech.stop();
   }
 
+  /** Whether what is said is told, by `cue`. `room`: px at the lower edge that the face leaves free for it. */
+  async setCaptions(on: boolean, room: () => number): Promise<void> {
+    this.roomBelow = on ? room : () => 0;
+    this.resize();
+    if (!on) return this.captions?.stop();
+    const { StreamCaptions } = await import('../captions/index.ts');
+    if (this.work.signal.aborted) return;
+    if (!this.captions) {
+      this.captions = new StreamCaptions(this.link.client, () => this.shownTime);
+      this.captions.on('cue', (cue) => this.emit('cue', cue));
+    }
+    this.captions.start();
+  }
+
+  /** ms of the stream's clock: what is heard, else what is seen. */
+  private get shownTime(): number {
+    const heard = this.sound?.mediaTime ?? NaN;
+    return Number.isFinite(heard) ? heard : this.link.client.streamClock.mediaTime - this.player.delay;
+  }
+
   setFit(fit: Fit): void {
     if (this.face) this.camera.subject = frameOf(this.face.rig, fit);
     this.invalidate();
@@ -188,6 +213,7 @@ export class FaceShow extends Emitter<ShowEvents> {
     this.resized.disconnect();
     this.sound?.dispose();
     this.speech?.dispose();
+    this.captions?.dispose();
     this.link.close();
     this.player.dispose();
     this.kernel?.dispose();
@@ -308,6 +334,7 @@ export class FaceShow extends Emitter<ShowEvents> {
     this.lastTime = time;
     if (!this.visible || !this.kernel) return;
     const begun = performance.now();
+    this.captions?.update();
     const moved = !this.paused && this.player.update(delta);
     if (moved || this.dirty || this.renderer.isFading) {
       this.dirty = false;
@@ -368,6 +395,7 @@ export class FaceShow extends Emitter<ShowEvents> {
 
   private resize(): void {
     const { clientWidth, clientHeight } = this.canvas;
+    this.camera.room = Math.min(0.4, this.roomBelow() / Math.max(1, clientHeight));
     const ratio = this.pixelRatio;
     const width = Math.max(1, Math.round(clientWidth * ratio));
     const height = Math.max(1, Math.round(clientHeight * ratio));

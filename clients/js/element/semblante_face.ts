@@ -1,3 +1,4 @@
+import type { CaptionsBox, Cue } from '../captions/index.ts';
 import type { Fit } from '../view/framing.ts';
 import type { QualityName } from './detail.ts';
 import { FaceShow, type ShowState } from './face_show.ts';
@@ -38,6 +39,8 @@ export interface FaceEventMap {
   ended: CustomEvent<null>;
   error: CustomEvent<{ code: Trouble; message: string }>;
   levelchange: CustomEvent<{ lod: number; vertices: number }>;
+  /** With captions: other words are said; empty: none. */
+  cuechange: CustomEvent<{ text: string; language: string }>;
   statechange: CustomEvent<{ state: FaceState; message: string }>;
 }
 
@@ -58,7 +61,7 @@ export interface SemblanteFace {
  * events.
  */
 export class SemblanteFace extends Base {
-  static readonly observedAttributes = ['src', 'stream', 'model', 'fit', 'quality', 'poster', 'alt', 'sound', 'voice'];
+  static readonly observedAttributes = ['src', 'stream', 'model', 'fit', 'quality', 'poster', 'alt', 'sound', 'voice', 'captions'];
 
   private show: FaceShow | null = null;
   private failed: FaceTrouble | null = null;
@@ -72,6 +75,7 @@ export class SemblanteFace extends Base {
   private readonly wheel = this.make('i');
   private readonly playButton = this.make('button');
   private readonly soundButton = this.make('button');
+  private captionsBox: CaptionsBox | null = null;
   private fingers = new Map<number, { x: number; y: number }>();
 
   constructor() {
@@ -164,6 +168,14 @@ export class SemblanteFace extends Base {
   }
   set voice(value: boolean) {
     this.toggleAttribute('voice', value);
+  }
+
+  /** Whether what is said is shown as words, where the server knows them. */
+  get captions(): boolean {
+    return this.hasAttribute('captions');
+  }
+  set captions(value: boolean) {
+    this.toggleAttribute('captions', value);
   }
 
   /** A token, for a server of another origin that asks for one. Write only; not an attribute, which pages show. */
@@ -283,6 +295,7 @@ export class SemblanteFace extends Base {
     if (name === 'poster') this.setPoster();
     else if (name === 'alt') this.name();
     else if (name === 'fit') this.show?.setFit(this.fit);
+    else if (name === 'captions') void this.setCaptions();
     else this.reload();
   }
 
@@ -329,6 +342,8 @@ export class SemblanteFace extends Base {
       });
       show.on('sound', () => this.update());
       show.on('playing', () => this.tell('playing'));
+      show.on('cue', (cue) => this.caption(cue));
+      if (this.captions) void this.setCaptions();
       show.on('level', (level) => this.tell('levelchange', level));
     } catch (error) {
       if (!(error instanceof FaceTrouble)) throw error;
@@ -336,6 +351,27 @@ export class SemblanteFace extends Base {
       this.tell('error', { code: error.code, message: error.message });
     }
     this.update();
+  }
+
+  private async setCaptions(): Promise<void> {
+    const { show, captions } = this;
+    if (captions && !this.captionsBox) {
+      const { CaptionsBox, captionsStyle } = await import('../captions/index.ts');
+      if (!this.captionsBox) {
+        const style = new CSSStyleSheet();
+        style.replaceSync(captionsStyle);
+        this.shadowRoot!.adoptedStyleSheets.push(style);
+        this.captionsBox = new CaptionsBox();
+        this.words.before(this.captionsBox.element);
+      }
+    }
+    await show?.setCaptions(this.captions, () => this.captionsBox?.room ?? 0);
+    this.updateSound();
+  }
+
+  private caption(cue: Cue | null): void {
+    this.captionsBox?.show(cue);
+    this.tell('cuechange', { text: cue?.text ?? '', language: cue?.language ?? '' });
   }
 
   private stop(): void {
@@ -375,6 +411,7 @@ export class SemblanteFace extends Base {
 
   private updateSound(): void {
     const { soundButton, show } = this;
+    this.captionsBox?.setHeard(this.isHeard || this.isSpeaking);
     if (show?.hasVoice && show.face && this.state !== 'error') {
       soundButton.hidden = soundButton.disabled = false;
       soundButton.textContent = this.isSpeaking ? 'Voice off' : 'Voice on';

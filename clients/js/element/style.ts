@@ -11,6 +11,7 @@ export const styleText = `
 :host([theme='light']) { color-scheme: light; }
 :host([theme='dark']) { color-scheme: dark; }
 :host([hidden]) { display: none; }
+:host(:is([sound], [voice])) { --semblante-captions-room: 68px; }
 :host(:focus-visible) { outline: 3px solid Highlight; outline-offset: -3px; }
 canvas, img { position: absolute; inset: 0; width: 100%; height: 100%; display: block; }
 canvas { touch-action: pan-y; opacity: 0; transition: opacity 0.25s; cursor: grab; }

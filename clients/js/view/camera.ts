@@ -22,6 +22,8 @@ export class OrbitCamera {
   /** factor of the distance at which the subject fills the picture */
   distance = 1;
   subject: Subject = { centre: [0, 0, 0], half: [1, 1, 1] };
+  /** Part of the picture at its lower edge, 0 to 0.5, that the subject leaves free */
+  room = 0;
   readonly eye: Vec3 = [0, 0, 1];
   /** projection times view, column by column */
   readonly matrix = new Float32Array(16);
@@ -45,7 +47,9 @@ export class OrbitCamera {
   update(aspect: number): void {
     const { centre, half } = this.subject;
     const slope = Math.tan((fieldOfView * Math.PI) / 360);
-    const fitting = Math.max(half[1], half[0] / aspect) * margin;
+    const fitting = Math.max(half[1] / (1 - this.room), half[0] / aspect) * margin;
+    // The subject moves up by as much as it would reach into the room.
+    const lift = Math.max(0, 2 * this.room - 1 + (half[1] * margin) / fitting);
     const away = (fitting / slope + half[2] * 0.5) * this.distance;
     const back: Vec3 = [
       Math.sin(this.yaw) * Math.cos(this.pitch),
@@ -71,6 +75,7 @@ export class OrbitCamera {
     }
     this.matrix[14] = -deep[0]! * ahead + deep[1]!;
     this.matrix[15] = ahead;
+    for (let i = 0; i < 16; i += 4) this.matrix[i + 1]! += lift * this.matrix[i + 3]!;
   }
 }
 

@@ -131,6 +131,8 @@ export const portugueseLive = {
   '1 publisher': '1 publicando',
   'Figures of the stream': 'Números do fluxo',
   'Figures on the picture': 'Números sobre a imagem',
+  Captions: 'Legendas',
+  'What is said, where the server knows the words.': 'O que se diz, quando o servidor conhece as palavras.',
   'Data rate of the last minute': 'Taxa de dados do último minuto',
   Data: 'Dados',
   Buffer: 'Reserva',

@@ -82,6 +82,29 @@ beforeEach(() => {
   vi.useFakeTimers({ now: 50_000 });
 });
 
+describe('captions', () => {
+  it('Are asked for by the hello and changed later, and bring texts beside frames', async () => {
+    const client = new StreamClient('ws://x', {
+      WebSocket: FakeSocket as unknown as NonNullable<StreamOptions['WebSocket']>,
+      now: () => Date.now(),
+      pingInterval: 0,
+      captions: true,
+    });
+    const told: string[] = [];
+    client.on('text', ({ text: words }) => told.push(words));
+    client.connect();
+    greet(9, 10_000);
+    expect(FakeSocket.last.sent.splice(0)).toMatchObject([{ type: 'hello', captions: true, text: false }]);
+    FakeSocket.last.give(text());
+    expect(told).toEqual(['Am pe']);
+    client.setCaptions(false);
+    expect(FakeSocket.last.sent.splice(0)).toMatchObject([{ type: 'captions', on: false }]);
+    FakeSocket.last.give(text({ speech: 2 }));
+    expect(told).toHaveLength(1);
+    client.dispose();
+  });
+});
+
 describe('a score', () => {
   it('has the words of its text, with their times', () => {
     expect(wordTimes(score)).toEqual([0, 180]);

@@ -61,8 +61,8 @@ export class LivePanel {
     speech: HTMLElement,
     performance: HTMLElement,
     recordings: HTMLElement,
-    /** Whether the figures are shown over the picture. */
-    overlay: Signal<boolean>,
+    /** What is shown over the picture. */
+    over: { figures: Signal<boolean>; captions: Signal<boolean> },
   ) {
     const figure = (term: string, value: HTMLElement): HTMLElement => h('div', {}, h('dt', {}, term), value);
     this.publishBox.addEventListener('change', () => void this.togglePublish());
@@ -87,7 +87,8 @@ export class LivePanel {
         ),
         this.network,
         this.soundSwitch(sound),
-        this.overlaySwitch(overlay),
+        overSwitch('live-captions', t('Captions'), over.captions, t('What is said, where the server knows the words.')),
+        overSwitch('live-overlay', t('Figures on the picture'), over.figures),
         new StreamFacts(live).element,
       ),
       h(
@@ -163,17 +164,6 @@ export class LivePanel {
     sound.watch((on) => (box.checked = on));
     fault.watch((why) => setText(note, why ?? ''));
     return h('label', { class: 'switch-row', for: 'live-sound' }, h('span', { class: 'grow' }, h('strong', {}, t('Sound')), note), box);
-  }
-
-  private overlaySwitch(overlay: Signal<boolean>): HTMLElement {
-    const box = h('input', { type: 'checkbox', id: 'live-overlay', role: 'switch' });
-    box.addEventListener('change', () => overlay.set(box.checked));
-    return h(
-      'label',
-      { class: 'switch-row', for: 'live-overlay' },
-      h('span', { class: 'grow' }, h('strong', {}, t('Figures on the picture'))),
-      box,
-    );
   }
 
   private drawStatus(): void {
@@ -331,4 +321,12 @@ export class LivePanel {
     this.live.send(target);
     this.drawSending();
   }
+}
+
+/** A switch for something that is shown over the picture. */
+function overSwitch(id: string, title: string, shown: Signal<boolean>, note = ''): HTMLElement {
+  const box = h('input', { type: 'checkbox', id, role: 'switch', on: { change: () => shown.set(box.checked) } });
+  shown.watch((on) => (box.checked = on));
+  const words = [h('strong', {}, title), note ? h('small', { class: 'muted' }, note) : null];
+  return h('label', { class: 'switch-row', for: id }, h('span', { class: 'grow' }, ...words), box);
 }
