@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""What a minute of talk takes on the wire: face, sound, both, text alone. Python 3, standard library.
+"""What a minute of talk takes on the wire: face, sound, both, text alone, captions beside the face. Python 3, standard library.
 
     minute.py PROGRAM [TEXT_FILE LANGUAGE]     PROGRAM: build/bin/semblante, with its voice beside it
 
 Starts a server, has a stream say the text, and counts the WebSocket payloads and headers of one subscriber without and one with
-sound, and of one with a voice of its own, until the talk ends."""
+sound, of one with a voice of its own, and of one that shows captions, until the talk ends."""
 
 import base64
 import contextlib
@@ -40,7 +40,7 @@ def ask(port, method, path, body=None):
 class Subscriber(threading.Thread):
     """Counts what comes; in the binary form a first byte of 10 is sound, 11 or 13 is text, 9 and 128 to 255 are faces."""
 
-    def __init__(self, port, sound=False, text=False):
+    def __init__(self, port, sound=False, text=False, captions=False):
         super().__init__(daemon=True)
         self.bytes = {"face": 0, "sound": 0, "text": 0}
         self.messages = dict(self.bytes)
@@ -52,7 +52,7 @@ class Subscriber(threading.Thread):
         self.file = self.socket.makefile("rb")
         while self.file.readline() != b"\r\n":
             pass
-        hello = bytes([1, 1, 0, 0]) + (bytes([0, sound, text]) if sound or text else b"")
+        hello = bytes([1, 1, 0, 0]) + bytes([0, sound, text, captions]).rstrip(b"\0")
         self.socket.sendall(bytes([0x82, 0x80 | len(hello)]) + bytes(4) + hello)
 
     def run(self):
@@ -102,7 +102,7 @@ def main(program, text, language):
     with contextlib.closing(Server(program)) as server:
         port = server.port
         assert ask(port, "POST", "/v1/streams", {"name": "talk"})[0] == 201
-        subscribers = [Subscriber(port), Subscriber(port, sound=True), Subscriber(port, text=True)]
+        subscribers = [Subscriber(port), Subscriber(port, sound=True), Subscriber(port, text=True), Subscriber(port, captions=True)]
         for one in subscribers:
             one.start()
         status, playing = ask(port, "POST", "/v1/streams/talk/speech", {"text": text, "language": language, "seed": 7})
@@ -111,13 +111,16 @@ def main(program, text, language):
             seconds = playing["duration"] / 1000  # of what has been made
             time.sleep(0.5)
             playing = ask(port, "GET", "/v1/streams/talk")[1]["playing"]
-        without, both, reader = subscribers
+        time.sleep(1)  # for subscribers of a busy machine
+        without, both, reader, captioned = subscribers
+        assert captioned.bytes["face"] == without.bytes["face"], f"captions change the face: {captioned.bytes} {without.bytes}"
         assert without.bytes["sound"] == without.bytes["text"] == both.bytes["text"] == reader.bytes["sound"] == 0
         print(f"{seconds:.1f} s of talk")
         print("| a minute of talk | messages | bytes | kbit/s |\n|---|---|---|---|")
         rows = [("face", without.messages["face"], without.bytes["face"]), ("sound", both.messages["sound"], both.bytes["sound"]),
                 ("both", sum(both.messages.values()), sum(both.bytes.values())),
-                ("text alone", sum(reader.messages.values()), sum(reader.bytes.values()))]
+                ("text alone", sum(reader.messages.values()), sum(reader.bytes.values())),
+                ("captions beside the face", captioned.messages["text"], captioned.bytes["text"])]
         for name, messages, count in rows:
             print(f"| {name} | {messages * 60 / seconds:.0f} | {count * 60 / seconds:.0f} | {count * 8 / seconds / 1000:.2f} |")
         said = len(text.encode()) * 8 / seconds
