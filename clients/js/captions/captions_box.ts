@@ -17,7 +17,7 @@ export const captionsStyle = `
   box-sizing: border-box; max-width: min(100cqi - 24px, 37em);
   margin: 0 12px calc(var(--semblante-captions-room, 12px) + env(safe-area-inset-bottom));
   padding: ${padding}em 0.7em; border-radius: 0.5em; background: rgb(14 14 16 / 0.8); color: #fff;
-  font: 500 clamp(15px, 1.1cqi + 1.1cqb, 28px)/${lineHeight} system-ui, sans-serif;
+  font: 500 clamp(16px, 1.1cqi + 1.1cqb, 28px)/${lineHeight} system-ui, sans-serif;
   text-align: center; text-wrap: balance; overflow-wrap: anywhere; hyphens: auto; unicode-bidi: plaintext;
 }
 .captions > span:empty { visibility: hidden; }
