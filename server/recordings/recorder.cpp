@@ -250,19 +250,30 @@ void Recorder::taken(std::string_view stream, std::uint64_t epoch, const Frames&
   work_.notify_one();
 }
 
-void Recorder::heard(std::string_view stream, std::uint64_t epoch, const SoundPacket& sound) {
+template <class Message>
+void Recorder::queue(std::string_view stream, std::uint64_t epoch, const Message& message,
+                     std::vector<std::shared_ptr<const Message>> Queue::*to) {
   if (running_count_ == 0) return;
   const std::lock_guard lock(mutex_);
-  std::shared_ptr<const SoundPacket> copy;
+  std::shared_ptr<const Message> copy;
   for (const auto& [id, running] : running_) {
     if (running->record.stream != stream || running->record.epoch != epoch || !running->stop_reason.empty()) continue;
-    if (running->queue.sound.size() >= limits_.queued_frames) continue;
-    if (!copy) copy = std::make_shared<const SoundPacket>(sound);
-    running->queue.sound.push_back(copy);
+    auto& waiting = running->queue.*to;
+    if (waiting.size() >= limits_.queued_frames) continue;
+    if (!copy) copy = std::make_shared<const Message>(message);
+    waiting.push_back(copy);
   }
   if (!copy || has_work_) return;
   has_work_ = true;
   work_.notify_one();
+}
+
+void Recorder::heard(std::string_view stream, std::uint64_t epoch, const SoundPacket& sound) {
+  queue(stream, epoch, sound, &Queue::sound);
+}
+
+void Recorder::said(std::string_view stream, std::uint64_t epoch, const SpeechText& text) {
+  queue(stream, epoch, text, &Queue::texts);
 }
 
 void Recorder::ended(std::string_view stream) {
@@ -292,7 +303,7 @@ void Recorder::run() {
       std::string reason = running->stop_reason;
       lock.unlock();
       const auto now = Clock::now();
-      if (!running->waiting_since && !(queue.batches.empty() && queue.sound.empty())) running->waiting_since = now;
+      if (!running->waiting_since && !queue.empty()) running->waiting_since = now;
       if (reason.empty() && running->ends && now >= *running->ends) reason = ended::max_duration;
       const bool flush =
           !reason.empty() || (running->waiting_since && now - *running->waiting_since >= limits_.flush_interval);
@@ -323,6 +334,7 @@ std::string_view Recorder::write(Running& running, const Queue& queue, bool flus
     reason = write_batch(running, *batch);
   }
   if (!has_begun && reason.empty()) reason = write_sound(running, queue);
+  if (reason.empty()) reason = write_texts(running, queue);
   if (flush || !reason.empty()) {
     running.waiting_since.reset();
     if (reason.empty() && running.has_room && !running.has_room()) reason = ended::max_token_bytes;
@@ -340,6 +352,14 @@ std::string_view Recorder::write_sound(Running& running, const Queue& queue) {
     const auto first = writer.first_media_time();
     if (first && sound->media_time > *first + running.record.max_duration.value_or(max_recording_ms)) continue;
     if (const auto added = writer.add(*sound); !added) return write_failure(running, added.error());
+  }
+  return {};
+}
+
+std::string_view Recorder::write_texts(Running& running, const Queue& queue) {
+  for (const auto& text : queue.texts) {
+    if (const auto reason = beyond_a_limit(running); !reason.empty()) return reason;
+    if (const auto added = running.writer->add(*text); !added) return write_failure(running, added.error());
   }
   return {};
 }

@@ -105,6 +105,7 @@ class Recorder : public streams::BatchListener {
 
   void taken(std::string_view stream, std::uint64_t epoch, const Frames& batch) override;
   void heard(std::string_view stream, std::uint64_t epoch, const SoundPacket& sound) override;
+  void said(std::string_view stream, std::uint64_t epoch, const SpeechText& text) override;
   void ended(std::string_view stream) override;
 
  private:
@@ -113,6 +114,8 @@ class Recorder : public streams::BatchListener {
   struct Queue {
     std::deque<std::shared_ptr<const Frames>> batches;
     std::vector<std::shared_ptr<const SoundPacket>> sound;
+    std::vector<std::shared_ptr<const SpeechText>> texts;
+    [[nodiscard]] bool empty() const { return batches.empty() && sound.empty() && texts.empty(); }
   };
   struct Running {
     store::RecordingRecord record;
@@ -138,10 +141,15 @@ class Recorder : public streams::BatchListener {
   std::string_view write(Running& running, const Queue& queue, bool flush);
   /// Add what is queued to the file; return the reason as above.
   std::string_view write_sound(Running& running, const Queue& queue);
+  std::string_view write_texts(Running& running, const Queue& queue);
   std::string_view write_batch(Running& running, const Frames& batch);
   static std::string_view write_failure(const Running& running, const Error& error);
   std::string_view beyond_a_limit(const Running& running) const;
   void finish(Running& running, std::string reason);
+  /// Queues something that came beside the frames.
+  template <class Message>
+  void queue(std::string_view stream, std::uint64_t epoch, const Message& message,
+             std::vector<std::shared_ptr<const Message>> Queue::*to);
   /// Keeps the record of a recording that has ended, which is shown as running until its end is durable.
   void keep_shown(store::RecordingRecord record);
   void forget_shown(const std::string& id);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <string>
+#include <utility>
 #include <zlib.h>
 
 #include "protocol/cpp/byte_io.h"
@@ -103,6 +104,43 @@ class FramesDecoder {
   PackedState state_;
 };
 
+/// A chunk without its head: the messages.
+template <class M>
+std::vector<std::uint8_t> chunk_of(std::span<const M> messages) {
+  assert(!messages.empty() && messages.size() <= max_chunk_frames);
+  std::vector<std::uint8_t> chunk(chunk_head_bytes);
+  std::vector<std::uint8_t> bytes;
+  for (const M& message : messages) {
+    bytes.clear();
+    encode_message(message, bytes);
+    append_message(chunk, bytes);
+  }
+  return chunk;
+}
+
+/// The messages of a complete chunk that has one kind of them.
+template <class M>
+Result<std::vector<M>> messages_of(Bytes bytes, const ChunkHead& head) {
+  Messages messages(bytes.subspan(chunk_head_bytes, head.bytes));
+  std::vector<M> read;
+  while (!messages.empty() && read.size() < head.frames) {
+    const auto bytes_of_one = messages.next();
+    if (!bytes_of_one) return bytes_of_one.error();
+    auto message = FrameDecoder().decode(*bytes_of_one);
+    if (!message) return message.error();
+    auto* one = std::get_if<M>(&*message);
+    if (one == nullptr) return malformed("a message of a chunk is not of its kind");
+    read.push_back(std::move(*one));
+  }
+  return read;
+}
+
+std::pair<std::uint64_t, std::uint64_t> extremes(std::span<const SpeechText> texts) {
+  const auto earlier = [](const SpeechText& a, const SpeechText& b) { return a.media_time < b.media_time; };
+  const auto [first, last] = std::minmax_element(texts.begin(), texts.end(), earlier);
+  return {first->media_time, last->media_time};
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> encode_beginning(const Header& header) {
@@ -150,18 +188,25 @@ std::size_t sound_message_bytes(const SoundPacket& sound) {
 }
 
 std::vector<std::uint8_t> encode_sound_chunk(std::span<const SoundPacket> packets) {
-  assert(!packets.empty() && packets.size() <= max_chunk_frames);
-  std::vector<std::uint8_t> chunk(chunk_head_bytes);
-  std::vector<std::uint8_t> message;
-  for (const auto& packet : packets) {
-    message.clear();
-    encode_message(packet, message);
-    append_message(chunk, message);
-  }
+  auto chunk = chunk_of(packets);
   finish(chunk, {.kind = ChunkKind::sound,
                  .frames = static_cast<std::uint32_t>(packets.size()),
                  .begin = packets.front().media_time,
                  .end = packets.back().media_time});
+  return chunk;
+}
+
+std::size_t text_message_bytes(const SpeechText& text) {
+  // The most that the varints of length, number, time and sizes, and the type, take.
+  constexpr std::size_t around = 3 + 1 + 8 + 8 + 1 + 2 + 2;
+  return text.language.size() + text.text.size() + text.score.size() + around;
+}
+
+std::vector<std::uint8_t> encode_text_chunk(std::span<const SpeechText> texts) {
+  auto chunk = chunk_of(texts);
+  const auto [begin, end] = extremes(texts);
+  finish(chunk,
+         {.kind = ChunkKind::text, .frames = static_cast<std::uint32_t>(texts.size()), .begin = begin, .end = end});
   return chunk;
 }
 
@@ -178,7 +223,7 @@ Result<ChunkHead> read_chunk_head(Bytes bytes) {
   head.begin = get_u64(&bytes[at_begin]);
   head.end = get_u64(&bytes[at_end]);
   if (head.bytes > max_chunk_bytes) return Error{ErrorCode::too_large, "", "the chunk's length is over the limit"};
-  if (head.kind != ChunkKind::frames && head.kind != ChunkKind::sound) return head;
+  if (head.kind < ChunkKind::frames || head.kind > ChunkKind::text) return head;
   const bool in_range = head.frames >= 1 && head.frames <= max_chunk_frames && head.sequence <= max_number &&
                         head.end <= max_number && head.begin <= head.end &&
                         (head.kind == ChunkKind::frames || (head.sequence == 0 && head.lost == 0));
@@ -233,23 +278,26 @@ Result<std::vector<RecordingFrame>> read_frames_chunk(Bytes bytes) {
 Result<std::vector<SoundPacket>> read_sound_chunk(Bytes bytes) {
   const auto head = checked_head(bytes, ChunkKind::sound);
   if (!head) return head.error();
-  Messages messages(bytes.subspan(chunk_head_bytes, head->bytes));
-  std::vector<SoundPacket> packets;
-  while (!messages.empty() && packets.size() < head->frames) {
-    const auto bytes_of_one = messages.next();
-    if (!bytes_of_one) return bytes_of_one.error();
-    auto message = FrameDecoder().decode(*bytes_of_one);
-    if (!message) return message.error();
-    auto* sound = std::get_if<SoundPacket>(&*message);
-    if (sound == nullptr) return malformed("a message of a chunk of sound is not sound");
-    if (!packets.empty() && sound->media_time < packets.back().media_time)
-      return malformed("the packets of a chunk are not in the order of their times");
-    packets.push_back(std::move(*sound));
-  }
-  const bool as_said = packets.size() == head->frames && packets.front().media_time == head->begin &&
-                       packets.back().media_time == head->end;
+  auto packets = messages_of<SoundPacket>(bytes, *head);
+  if (!packets) return packets;
+  const bool in_order =
+      std::is_sorted(packets->begin(), packets->end(),
+                     [](const SoundPacket& a, const SoundPacket& b) { return a.media_time < b.media_time; });
+  if (!in_order) return malformed("the packets of a chunk are not in the order of their times");
+  const bool as_said = packets->size() == head->frames && packets->front().media_time == head->begin &&
+                       packets->back().media_time == head->end;
   if (!as_said) return malformed("the packets of a chunk do not match its head");
   return packets;
+}
+
+Result<std::vector<SpeechText>> read_text_chunk(Bytes bytes) {
+  const auto head = checked_head(bytes, ChunkKind::text);
+  if (!head) return head.error();
+  auto texts = messages_of<SpeechText>(bytes, *head);
+  if (!texts) return texts;
+  const bool as_said = texts->size() == head->frames && extremes(*texts) == std::pair(head->begin, head->end);
+  if (!as_said) return malformed("the texts of a chunk do not match its head");
+  return texts;
 }
 
 }  // namespace semblante::recordings

@@ -63,6 +63,7 @@ std::optional<Error> RecordingReader::walk(Check check) {
     // A chunk of another kind is checked too: one of frames with a damaged kind must not be skipped.
     const auto taken = head->kind == ChunkKind::frames  ? add_frames(chunk, check)
                        : head->kind == ChunkKind::sound ? add_sound(chunk, check)
+                       : head->kind == ChunkKind::text  ? add_texts(chunk, check)
                                                         : check_chunk(*bytes_, chunk.offset, *head);
     if (!taken) return taken.error();
     whole_bytes_ = end;
@@ -99,6 +100,16 @@ Status RecordingReader::add_sound(const Chunk& chunk, Check check) {
   sound_end_ = head.end;
   sound_packets_ += head.frames;
   sound_index_.add(chunk);
+  return Unit{};
+}
+
+Status RecordingReader::add_texts(const Chunk& chunk, Check check) {
+  if (frames_ == 0 || chunk.head.begin < begin_)
+    return Error{ErrorCode::malformed, "", "a chunk of text is before the first frame"};
+  if (check == Check::everything) {
+    if (const auto texts = read_texts(chunk); !texts) return texts.error();
+  }
+  if (!first_texts_) first_texts_ = chunk;
   return Unit{};
 }
 
@@ -148,6 +159,30 @@ Result<std::vector<SoundPacket>> RecordingReader::read_sound(const Chunk& chunk)
   auto packets = read_sound_chunk(*bytes);
   if (!packets) return at_byte(chunk.offset, packets.error());
   return packets;
+}
+
+Result<std::vector<SpeechText>> RecordingReader::read_texts(const Chunk& chunk) const {
+  const auto bytes = read_chunk(*bytes_, chunk.offset, chunk.head);
+  if (!bytes) return bytes.error();
+  auto texts = read_text_chunk(*bytes);
+  if (!texts) return at_byte(chunk.offset, texts.error());
+  return texts;
+}
+
+Result<std::vector<SpeechText>> RecordingReader::texts() const {
+  std::vector<SpeechText> said;
+  for (auto chunk = first_texts_; chunk; chunk = chunk_after(*chunk)) {
+    auto texts = read_texts(*chunk);
+    if (!texts) return texts;
+    for (auto& text : *texts) {
+      // Texts came a second before they were said; the end of a speech may have come before that.
+      while (!said.empty() && said.back().media_time >= text.media_time) said.pop_back();
+      said.push_back(std::move(text));
+    }
+  }
+  std::erase_if(said, [this](const SpeechText& text) { return text.media_time > end_; });
+  for (auto& text : said) text.media_time -= begin_;
+  return said;
 }
 
 std::uint64_t RecordingReader::Index::offset_before(std::uint64_t media_time) const {

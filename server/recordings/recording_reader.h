@@ -31,6 +31,10 @@ class RecordingReader {
   [[nodiscard]] std::uint64_t lost() const { return lost_; }
   /// Packets of sound.
   [[nodiscard]] std::uint64_t sound_packets() const { return sound_packets_; }
+  /// What was said, in order of time; `media_time` in ms after the beginning of the recording. A text without letters
+  /// ends the one before it; those that would begin after it or after the last frame are left out. Errors: a damaged
+  /// chunk, with its byte.
+  [[nodiscard]] Result<std::vector<SpeechText>> texts() const;
   /// Media time of the first frame; times in a recording are ms after it.
   [[nodiscard]] std::uint64_t begin() const { return begin_; }
   /// Time of the last frame.
@@ -77,14 +81,17 @@ class RecordingReader {
   [[nodiscard]] std::optional<Chunk> chunk_after(const Chunk& chunk) const;
   [[nodiscard]] Result<std::vector<RecordingFrame>> read(const Chunk& chunk) const;
   [[nodiscard]] Result<std::vector<SoundPacket>> read_sound(const Chunk& chunk) const;
+  [[nodiscard]] Result<std::vector<SpeechText>> read_texts(const Chunk& chunk) const;
   /// Checks that a chunk follows those before it, and takes it into the index.
   Status add_frames(const Chunk& chunk, Check check);
   Status add_sound(const Chunk& chunk, Check check);
+  Status add_texts(const Chunk& chunk, Check check);
   std::optional<Error> walk(Check check);
 
   std::shared_ptr<const ByteSource> bytes_;
   Header header_;
   Index index_, sound_index_;
+  std::optional<Chunk> first_texts_;
   std::uint64_t first_chunk_ = 0;  ///< offset after the header's chunk
   std::uint64_t frames_ = 0, lost_ = 0, begin_ = 0, end_ = 0, whole_bytes_ = 0, last_sequence_ = 0;
   std::uint64_t sound_packets_ = 0, sound_end_ = 0;  ///< sound_end_: media time of the last packet

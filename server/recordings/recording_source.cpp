@@ -45,13 +45,26 @@ class Sound : public streams::SoundCursor {
   RecordingSoundCursor cursor_;
 };
 
+class Texts : public streams::TextCursor {
+ public:
+  Texts(const std::vector<SpeechText>& texts, double ms) : texts_(texts) {
+    while (next_ < texts_.size() && static_cast<double>(texts_[next_].media_time) < ms) ++next_;
+  }
+  [[nodiscard]] const SpeechText* current() const override { return next_ < texts_.size() ? &texts_[next_] : nullptr; }
+  void advance() override { ++next_; }
+
+ private:
+  const std::vector<SpeechText>& texts_;
+  std::size_t next_ = 0;
+};
+
 /// Of a time in a recording: whole ms, not before it.
 std::uint32_t from_ms(double ms) { return static_cast<std::uint32_t>(std::ceil(std::max(ms, 0.0))); }
 
 class RecordingSource : public streams::FrameSource {
  public:
-  RecordingSource(SharedReader reader, std::string name, const Requantizer& requantize)
-      : reader_(std::move(reader)), name_(std::move(name)), requantize_(requantize) {}
+  RecordingSource(SharedReader reader, std::vector<SpeechText> texts, std::string name, const Requantizer& requantize)
+      : reader_(std::move(reader)), texts_(std::move(texts)), name_(std::move(name)), requantize_(requantize) {}
   [[nodiscard]] std::string_view kind() const override { return "recording"; }
   [[nodiscard]] std::string name() const override { return name_; }
   /// Includes the last frame, which lasts the mean interval.
@@ -68,12 +81,20 @@ class RecordingSource : public streams::FrameSource {
   [[nodiscard]] std::unique_ptr<streams::SoundCursor> sound_from(double ms) const override {
     return std::make_unique<Sound>(reader_, from_ms(ms));
   }
+  [[nodiscard]] std::unique_ptr<streams::TextCursor> texts_from(double ms) const override {
+    return std::make_unique<Texts>(texts_, ms);
+  }
+  /// Not all of what it shows need be speech.
+  [[nodiscard]] bool texts_replace_frames() const override { return false; }
   [[nodiscard]] std::size_t bytes() const override {
-    return reader_->whole_bytes() + max_chunk_frames * sizeof(RecordingFrame);
+    std::size_t texts = 0;
+    for (const auto& text : texts_) texts += sizeof(text) + text.text.capacity() + text.score.capacity();
+    return reader_->whole_bytes() + texts + max_chunk_frames * sizeof(RecordingFrame);
   }
 
  private:
   const SharedReader reader_;
+  const std::vector<SpeechText> texts_;
   const std::string name_;
   const Requantizer requantize_;
 };
@@ -87,9 +108,11 @@ Result<std::shared_ptr<const streams::FrameSource>> make_recording_source(const 
   auto reader = RecordingReader::open(bytes_in_memory(std::move(copy)), Check::everything);
   if (!reader) return reader.error();
   if (reader->frames() == 0) return Error{ErrorCode::empty, "", "the recording has no frame"};
+  auto texts = reader->texts();
+  if (!texts) return texts.error();
   const Requantizer requantize{quantizers_of(reader->header()), steps};
   return std::shared_ptr<const streams::FrameSource>(std::make_shared<RecordingSource>(
-      std::make_shared<const RecordingReader>(std::move(*reader)), std::move(name), requantize));
+      std::make_shared<const RecordingReader>(std::move(*reader)), *std::move(texts), std::move(name), requantize));
 }
 
 }  // namespace semblante::recordings

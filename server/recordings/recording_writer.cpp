@@ -89,6 +89,13 @@ void RecordingWriter::begin_at(std::uint64_t media_time) {
   const auto first = std::find_if(waiting_sound_.begin(), waiting_sound_.end(),
                                   [&](const SoundPacket& sound) { return sound.media_time >= media_time; });
   drop_sound(static_cast<std::size_t>(first - waiting_sound_.begin()));
+  drop_texts_before(media_time);
+}
+
+void RecordingWriter::drop_texts_before(std::uint64_t media_time) {
+  std::erase_if(waiting_texts_, [&](const SpeechText& text) { return text.media_time < media_time; });
+  waiting_text_bytes_ = 0;
+  for (const auto& text : waiting_texts_) waiting_text_bytes_ += text_message_bytes(text);
 }
 
 void RecordingWriter::drop_sound(std::size_t count) {
@@ -115,14 +122,35 @@ Status RecordingWriter::add(const SoundPacket& sound) {
   return Unit{};
 }
 
+Status RecordingWriter::add(const SpeechText& text) {
+  const bool has_begun = last_sequence_ != 0;
+  if (has_begun && (text.media_time < first_time_ || text.media_time - first_time_ > max_recording_ms)) return Unit{};
+  if (waiting_texts_.size() == max_chunk_frames ||
+      waiting_text_bytes_ + text_message_bytes(text) > max_text_chunk_bytes) {
+    if (!has_begun) {
+      waiting_texts_.clear();  // a recording of a stream without frames
+      waiting_text_bytes_ = 0;
+    } else if (auto status = flush(); !status) {
+      return status;
+    }
+  }
+  waiting_texts_.push_back(text);
+  waiting_text_bytes_ += text_message_bytes(text);
+  return Unit{};
+}
+
 Status RecordingWriter::flush() {
   if (broken_) return Error{ErrorCode::io, "", "the recording cannot be written any more"};
-  if (last_sequence_ == 0 || (waiting_.empty() && waiting_sound_.empty())) return Unit{};
+  if (last_sequence_ == 0 || (waiting_.empty() && waiting_sound_.empty() && waiting_texts_.empty())) return Unit{};
   std::vector<std::uint8_t> chunks;
   if (!waiting_.empty()) chunks = encode_chunk(waiting_, lost_before_);
   if (!waiting_sound_.empty()) {
     const auto sound = encode_sound_chunk(waiting_sound_);
     chunks.insert(chunks.end(), sound.begin(), sound.end());
+  }
+  if (!waiting_texts_.empty()) {
+    const auto texts = encode_text_chunk(waiting_texts_);
+    chunks.insert(chunks.end(), texts.begin(), texts.end());
   }
   auto status = write_at(descriptor_, durable_.bytes, chunks);
   if (status && ::fdatasync(descriptor_) != 0) status = io_error("a recording cannot be made durable");
@@ -135,6 +163,8 @@ Status RecordingWriter::flush() {
   durable_.bytes += chunks.size();
   durable_.sound_packets += waiting_sound_.size();
   drop_sound(waiting_sound_.size());
+  waiting_texts_.clear();
+  waiting_text_bytes_ = 0;
   if (waiting_.empty()) return Unit{};
   durable_.frames += waiting_.size();
   durable_.lost += lost_before_;

@@ -22,8 +22,8 @@ struct RecordingProgress {
   friend bool operator==(const RecordingProgress&, const RecordingProgress&) = default;
 };
 
-/// Writes one recording. Frames and packets of sound are gathered and written as chunks by flush() or when a chunk is
-/// full. They are durable when flush() returns. One thread.
+/// Writes one recording. Frames, packets of sound and texts are gathered and written as chunks by flush() or when a
+/// chunk is full. They are durable when flush() returns. One thread.
 class RecordingWriter {
  public:
   /// Creates the file, which must not exist, with its header chunk; durable, with its folder. Errors: io.
@@ -39,6 +39,8 @@ class RecordingWriter {
   /// Adds a packet of sound. Left out are a packet before the first frame, where the recording begins, and one that
   /// does not follow the packet before it. Errors: io.
   Status add(const SoundPacket& sound);
+  /// Adds a text, unless its first word is before the first frame. Errors: io.
+  Status add(const SpeechText& text);
   Status flush();
 
   /// The durable part; add() changes it only when a chunk is full.
@@ -52,6 +54,7 @@ class RecordingWriter {
   RecordingWriter(int descriptor, std::uint64_t bytes);
   void begin_at(std::uint64_t media_time);
   void drop_sound(std::size_t count);
+  void drop_texts_before(std::uint64_t media_time);
 
   const int descriptor_;
   RecordingProgress durable_;
@@ -59,6 +62,8 @@ class RecordingWriter {
   std::vector<SoundPacket> waiting_sound_;  ///< before the first frame: those that may follow it
   std::size_t waiting_sound_bytes_ = 0;     ///< in a chunk
   std::uint64_t last_sound_time_ = 0;
+  std::vector<SpeechText> waiting_texts_;  ///< likewise
+  std::size_t waiting_text_bytes_ = 0;
   std::uint32_t lost_before_ = 0;    ///< frames lost before those that are not written yet
   std::uint64_t last_sequence_ = 0;  ///< of the last frame added
   std::uint64_t last_time_ = 0, first_time_ = 0;

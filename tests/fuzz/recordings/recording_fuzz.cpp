@@ -46,6 +46,13 @@ void walk(std::vector<std::uint8_t> bytes, Check check) {
     sound_time = sound.packet()->media_time;
   }
   if (check == Check::everything && (sound.error() || packets != reader->sound_packets())) std::abort();
+  // read_text_chunk(), of each chunk of text.
+  const auto texts = shared->texts();
+  if (check == Check::everything && !texts) std::abort();
+  for (std::size_t i = 0; texts && i < texts->size(); ++i) {
+    const std::uint64_t at = (*texts)[i].media_time;
+    if (at > shared->duration() || (i > 0 && at <= (*texts)[i - 1].media_time)) std::abort();
+  }
   std::ostringstream ogg;
   if (sound_time < most_exported_ms) static_cast<void>(export_sound(shared, {}, ogg).ok());
   const auto middle = reader->at(reader->duration() / 2);

@@ -90,7 +90,7 @@ TEST(RecordingFile, FramesThatNeverCame_AreAMarkedGap) {
   for (const auto& frame : frames) {
     if (frame.sequence >= 50 && frame.sequence < 57) continue;
     kept.push_back(frame);
-    ASSERT_TRUE((*writer)->add({frame.sequence, frame.media_time, {{0, frame.state}}}));
+    ASSERT_TRUE((*writer)->add(Frames{frame.sequence, frame.media_time, {{0, frame.state}}}));
   }
   ASSERT_TRUE((*writer)->flush());
   EXPECT_EQ((*writer)->durable().lost, 7U);
@@ -104,8 +104,8 @@ TEST(RecordingFile, TimeThatFalls_StaysWithTheFrameBefore) {
   const Folder folder;
   auto writer = RecordingWriter::create(folder.file("a.srec"), stream_header());
   ASSERT_TRUE(writer);
-  ASSERT_TRUE((*writer)->add({1, 100, {{0, {}}, {50, {}}}}));
-  ASSERT_TRUE((*writer)->add({3, 120, {{0, {}}, {40, {}}}}));
+  ASSERT_TRUE((*writer)->add(Frames{1, 100, {{0, {}}, {50, {}}}}));
+  ASSERT_TRUE((*writer)->add(Frames{3, 120, {{0, {}}, {40, {}}}}));
   ASSERT_TRUE((*writer)->flush());
   const auto reader = open_memory(bytes_of(folder.file("a.srec")));
   ASSERT_TRUE(reader);
@@ -118,8 +118,8 @@ TEST(RecordingFile, LongerThanADay_IsRefused) {
   const Folder folder;
   auto writer = RecordingWriter::create(folder.file("a.srec"), stream_header());
   ASSERT_TRUE(writer);
-  ASSERT_TRUE((*writer)->add({1, 100, {{0, {}}}}));
-  EXPECT_EQ((*writer)->add({2, 101 + max_recording_ms, {{0, {}}}}).error().code, ErrorCode::out_of_range);
+  ASSERT_TRUE((*writer)->add(Frames{1, 100, {{0, {}}}}));
+  EXPECT_EQ((*writer)->add(Frames{2, 101 + max_recording_ms, {{0, {}}}}).error().code, ErrorCode::out_of_range);
   ASSERT_TRUE((*writer)->flush());
   EXPECT_EQ((*writer)->durable().frames, 1U);
 }
