@@ -5,11 +5,11 @@
 #include <cassert>
 #include <cmath>
 #include <opus.h>
-#include <samplerate.h>
 #include <string>
 #include <utility>
 
 #include "core/speech/utterance.h"
+#include "server/voice/resample.h"
 
 namespace semblante::voice {
 namespace {
@@ -28,25 +28,6 @@ constexpr opus_int32 complexity = 5;
 constexpr opus_int32 silent_bytes = 2;
 
 Error library_error(const char* text) { return {ErrorCode::internal, "", text}; }
-
-/// The samples at coded_rate, as floats within +-1.
-Result<std::vector<float>> resampled(std::span<const std::int16_t> samples, std::uint32_t sample_rate) {
-  std::vector<float> from(samples.size());
-  src_short_to_float_array(samples.data(), from.data(), static_cast<int>(samples.size()));
-  if (sample_rate == coded_rate || samples.empty()) return from;
-  SRC_DATA work{};
-  work.src_ratio = static_cast<double>(coded_rate) / sample_rate;
-  const double length = static_cast<double>(from.size()) * work.src_ratio;
-  std::vector<float> to(static_cast<std::size_t>(length) + 1);
-  work.data_in = from.data();
-  work.input_frames = static_cast<long>(from.size());
-  work.data_out = to.data();
-  work.output_frames = static_cast<long>(to.size());
-  if (const int error = src_simple(&work, SRC_SINC_FASTEST, 1); error != 0) return library_error(src_strerror(error));
-  std::fill(to.begin() + work.output_frames_gen, to.end(), 0.0F);
-  to.resize(static_cast<std::size_t>(std::lround(length)), 0.0F);  // else the parts would drift
-  return to;
-}
 
 }  // namespace
 
@@ -71,7 +52,7 @@ double SoundCoder::end() const {
 Status SoundCoder::add(std::span<const std::int16_t> samples, std::uint32_t sample_rate) {
   if (sample_rate < least_sample_rate || sample_rate > most_sample_rate)
     return Error{ErrorCode::out_of_range, "", std::to_string(sample_rate) + " samples a second"};
-  auto sound = resampled(samples, sample_rate);
+  auto sound = resampled(samples, sample_rate, coded_rate);
   if (!sound) return sound.error();
   begin_ += coded_;
   waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(std::exchange(coded_, 0)));

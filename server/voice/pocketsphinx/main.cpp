@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <iostream>
-#include <samplerate.h>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,6 +13,7 @@
 #include "server/jobs/isolation.h"
 #include "server/voice/pocketsphinx/recognizer.h"
 #include "server/voice/program.h"
+#include "server/voice/resample.h"
 #include "server/voice/voice_protocol.h"
 
 namespace semblante::voice {
@@ -41,26 +41,6 @@ std::vector<double> pieces_of(const Recording& sound) {
   return cuts;
 }
 
-Result<Recording> converted(Utterance sound) {
-  if (sound.sample_rate == Recognizer::sample_rate) return Recording{sound.sample_rate, std::move(sound.samples)};
-  std::vector<float> in(sound.samples.size());
-  src_short_to_float_array(sound.samples.data(), in.data(), static_cast<int>(in.size()));
-  const double ratio = static_cast<double>(Recognizer::sample_rate) / sound.sample_rate;
-  std::vector<float> out(static_cast<std::size_t>(ratio * static_cast<double>(in.size())) + 16);
-  SRC_DATA data{};
-  data.data_in = in.data();
-  data.input_frames = static_cast<long>(in.size());
-  data.data_out = out.data();
-  data.output_frames = static_cast<long>(out.size());
-  data.src_ratio = ratio;
-  if (const int code = src_simple(&data, SRC_SINC_FASTEST, 1); code != 0)
-    return Error{ErrorCode::internal, "", src_strerror(code)};
-  Recording recording{Recognizer::sample_rate, {}};
-  recording.samples.resize(static_cast<std::size_t>(data.output_frames_gen));
-  src_float_to_short_array(out.data(), recording.samples.data(), static_cast<int>(recording.samples.size()));
-  return recording;
-}
-
 int run() {
   VoiceAnswer sound;
   std::string line;
@@ -78,7 +58,7 @@ int run() {
   if (::setrlimit(RLIMIT_NOFILE, &none) != 0) return refuse("cannot forbid itself to open files");
   if (const auto isolated = jobs::isolate_this_process({}, {.highest_landlock = 0}); !isolated)
     return refuse(isolated.error().message);
-  const auto recording = converted(*std::move(given));
+  const auto recording = resampled({given->sample_rate, std::move(given->samples)}, Recognizer::sample_rate);
   if (!recording) return refuse(recording.error().message);
 
   const auto cuts = pieces_of(*recording);
