@@ -24,7 +24,7 @@ struct MarkedSsml {
 Result<MarkedSsml> read_marked_ssml(std::string_view text);
 
 /// Cuts a document as first_part() cuts a text, outside all elements but speak, p, prosody and emotion, and after
-/// `long_part_characters` also in s, say-as, emphasis, voice and lang; they are closed in the first part and opened
+/// `long_part_letters` also in s, say-as, emphasis, voice and lang; they are closed in the first part and opened
 /// again in the rest. Without such a place, and of a document that does not nest, the first part is the whole.
 TextParts first_part_of_ssml(std::string_view text);
 

@@ -114,9 +114,9 @@ class Reader {
  private:
   /// Whether the first part is long enough, and something ends here.
   [[nodiscard]] bool may_end_here() const {
-    if (characters_ < least_part_characters) return false;
+    if (letters_ < least_part_letters) return false;
     if (!said_since_end_) return !ends_.empty();
-    return may_break(text_.substr(0, at_), text_.substr(at_), characters_);
+    return may_break(text_.substr(0, at_), text_.substr(at_), letters_);
   }
   /// Spaces, signs, smileys and ends of spans go with the sentence before them.
   [[nodiscard]] bool belongs_to_what_was_said() const {
@@ -236,6 +236,7 @@ class Reader {
       said_since_end_ = true;
     }
     ++characters_;
+    letters_ += letters_of_character(rest);
     if (sign > 0 && said_since_end_ && ends_sentence(rest, sign)) {
       ends_.push_back(characters_);
       said_since_end_ = false;
@@ -254,7 +255,7 @@ class Reader {
 
   std::string_view text_;
   std::size_t at_ = 0;                                ///< bytes of what is read
-  std::size_t characters_ = 0;                        ///< of what is kept
+  std::size_t characters_ = 0, letters_ = 0;          ///< of what is kept
   std::size_t sentence_ = 0, previous_sentence_ = 0;  ///< their first characters
   bool said_since_end_ = false;
   std::vector<std::size_t> ends_;  ///< of sentences, one past the last character

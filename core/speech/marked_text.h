@@ -46,7 +46,7 @@ struct TextParts {
   std::string first;
   std::string rest;  ///< empty: the text was short
 };
-/// Cuts a text after its first sentences of at least `least_part_characters`, or where a long one may break
+/// Cuts a text after its first sentences of at least `least_part_letters`, or where a long one may break
 /// (text_breaks.h), so that the first part can be heard while the rest is made. Errors as those of read_marked_text(),
 /// of the first part.
 Result<TextParts> first_part(std::string_view text);

@@ -54,10 +54,10 @@ class Cutter {
   };
 
   [[nodiscard]] bool may_end_here() const {
-    if (characters_ < least_part_characters) return false;
+    if (letters_ < least_part_letters) return false;
     if (ended_ && all_open(can_be_halved)) return true;
-    return may_break(text_.substr(0, at_), text_.substr(at_), characters_) &&
-           all_open(characters_ < long_part_characters ? can_be_halved : can_be_halved_if_long);
+    return may_break(text_.substr(0, at_), text_.substr(at_), letters_) &&
+           all_open(letters_ < long_part_letters ? can_be_halved : can_be_halved_if_long);
   }
   [[nodiscard]] bool all_open(bool (*may_be_cut)(std::string_view)) const {
     return std::all_of(open_.begin(), open_.end(), [&](const Open& open) { return may_be_cut(open.name); });
@@ -93,7 +93,7 @@ class Cutter {
       ended_ = ended_ || ends_sentence(rest, sign);
     else if (!is_xml_space(rest[0]))
       ended_ = false;
-    ++characters_;
+    letters_ += letters_of_character(rest);
     at_ += next;
     return true;
   }
@@ -113,7 +113,7 @@ class Cutter {
   }
 
   std::string_view text_;
-  std::size_t at_ = 0, characters_ = 0;
+  std::size_t at_ = 0, letters_ = 0;
   bool ended_ = false;  ///< a sentence has ended, and nothing was said since
   std::vector<Open> open_;
 };

@@ -11,7 +11,7 @@ namespace {
 constexpr std::array<std::string_view, 8> spaced = {".", "!", "?", "\n", "…", "؟", "۔", "।"};
 constexpr std::array<std::string_view, 4> unspaced = {"。", "！", "？", "｡"};
 constexpr std::array<std::string_view, 7> clause_signs = {",", ";", ":", "،", "，", "、", "；"};
-constexpr std::size_t long_clause = 160;  ///< characters
+constexpr std::size_t long_clause = 160;  ///< letters
 
 bool is_space(char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -32,19 +32,48 @@ std::size_t sentence_sign(std::string_view text) {
   return 0;
 }
 
+std::size_t letters_of_character(std::string_view text) {
+  // By the first byte of UTF-8 and the second: U+0E00 (Thai) and beyond, but not U+1E00 (Latin) to U+2FFF (signs).
+  const auto byte = [text](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
+  const bool is_before = byte(0) < 0xE0 || (byte(0) == 0xE0 && byte(1) < 0xB8);
+  const bool is_latin_or_sign = (byte(0) == 0xE1 && byte(1) >= 0xB8) || byte(0) == 0xE2;
+  return is_before || is_latin_or_sign ? 1 : 6;
+}
+
+bool has_signs_alone(std::string_view text) {
+  bool has_sign = false;
+  while (!text.empty()) {
+    std::size_t bytes = sentence_sign(text);
+    for (const std::string_view sign : clause_signs)
+      if (text.starts_with(sign)) bytes = sign.size();
+    has_sign = has_sign || bytes > 0;
+    if (bytes == 0 && is_space(text[0])) bytes = 1;
+    if (bytes == 0) return false;
+    text.remove_prefix(bytes);
+  }
+  return has_sign;
+}
+
 bool ends_sentence(std::string_view text, std::size_t bytes) {
   const std::string_view after = text.substr(bytes);
   return after.empty() || is_space(after[0]) || after[0] == '[' || after[0] == '<' || sentence_sign(after) > 0 ||
          ends_with_one(text.substr(0, bytes), unspaced);
 }
 
-bool may_break(std::string_view before, std::string_view after, std::size_t characters) {
-  if (characters >= most_part_characters) return true;
+bool is_sentence_end(std::string_view text) {
+  while (!text.empty() &&
+         (is_space(text.back()) || std::string_view("\"')]").find(text.back()) != std::string_view::npos))
+    text.remove_suffix(1);
+  return ends_with_one(text, spaced) || ends_with_one(text, unspaced);
+}
+
+bool may_break(std::string_view before, std::string_view after, std::size_t letters) {
+  if (letters >= most_part_letters) return true;
   if (before.empty() || after.empty()) return false;
   const bool at_space = is_space(before.back());
-  if (characters >= long_part_characters)
+  if (letters >= long_part_letters)
     return at_space || (ends_with_sign(before) && !is_digit(after[0]) && !is_space(after[0]));
-  if (characters < long_clause) return false;
+  if (letters < long_clause) return false;
   if (!at_space) return ends_with_one(before, clause_signs) && static_cast<unsigned char>(before.back()) >= 0x80;
   return ends_with_one(before.substr(0, before.size() - 1), clause_signs);
 }

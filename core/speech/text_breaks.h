@@ -5,21 +5,31 @@
 
 namespace semblante {
 
-/// A part of a text that is said alone has at least so many characters.
-inline constexpr std::size_t least_part_characters = 40;
-/// A part with more is cut at the next word or sign, and one with `most_part_characters` anywhere, so that a text
-/// without sentences is not made whole before it is heard.
-inline constexpr std::size_t long_part_characters = 320, most_part_characters = 480;
+/// A part of a text that is said alone has at least so many letters.
+inline constexpr std::size_t least_part_letters = 40;
+/// A part with more is cut at the next word or sign, and one with `most_part_letters` anywhere, so that a text without
+/// sentences is not made whole before it is heard.
+inline constexpr std::size_t long_part_letters = 320, most_part_letters = 480;
+
+/// As how many letters the character that a text begins with counts, by the time in which it is said: 1; a character of
+/// East and Southeast Asia, which is a syllable or, in a voice of another language, the name of a letter, 6.
+std::size_t letters_of_character(std::string_view text);
 
 /// Number of bytes of the sign that a text begins with, if the sign can end a sentence, else 0: a newline, and those of
 /// Latin, Greek, Arabic, Indic, and East Asian scripts.
 std::size_t sentence_sign(std::string_view text);
 
+/// Whether a text has nothing but signs that end sentences and clauses, and spaces, and is not empty.
+bool has_signs_alone(std::string_view text);
+
 /// Whether a sentence sign of `bytes` at the beginning of `text` ends one: before a space, another such sign, a mark or
 /// a tag, and not in "3.5" or "a.b". Signs of East Asian scripts stand without spaces.
 bool ends_sentence(std::string_view text, std::size_t bytes);
 
-/// Whether a part may end between `before`, of so many characters, and `after` although no sentence ends there.
-bool may_break(std::string_view before, std::string_view after, std::size_t characters);
+/// Whether a text ends with the end of a sentence, with the spaces, quotation marks and brackets after it.
+bool is_sentence_end(std::string_view text);
+
+/// Whether a part may end between `before`, of so many letters, and `after` although no sentence ends there.
+bool may_break(std::string_view before, std::string_view after, std::size_t letters);
 
 }  // namespace semblante

@@ -7,8 +7,6 @@ namespace {
 
 constexpr std::uint8_t expression_mark = 15, expressions = 7, intensities = 64;
 
-bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
-
 }  // namespace
 
 std::optional<SpeechScore> read_score(std::span<const std::uint8_t> bytes) {
@@ -60,7 +58,7 @@ std::vector<std::uint8_t> write_score(const SpeechScore& score) {
 std::vector<std::size_t> word_begins(std::string_view text) {
   std::vector<std::size_t> begins;
   for (std::size_t i = 0; i < text.size(); ++i)
-    if (!is_space(text[i]) && (i == 0 || is_space(text[i - 1]))) begins.push_back(i);
+    if (!separates_words(text[i]) && (i == 0 || separates_words(text[i - 1]))) begins.push_back(i);
   return begins;
 }
 

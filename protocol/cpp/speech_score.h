@@ -41,7 +41,9 @@ std::optional<SpeechScore> read_score(std::span<const std::uint8_t> bytes);
 /// Durations are multiples of score_unit; longer steps become several.
 std::vector<std::uint8_t> write_score(const SpeechScore& score);
 
-/// Where the words of a text begin, in bytes: what is between spaces, tabs and ends of lines.
+/// Spaces, tabs and ends of lines.
+inline bool separates_words(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+/// Where the words of a text begin, in bytes: what is between them.
 std::vector<std::size_t> word_begins(std::string_view text);
 
 /// `malformed` at /score unless it is a score with as many words as the text.

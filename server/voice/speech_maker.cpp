@@ -10,6 +10,7 @@
 #include "core/speech/marked_ssml.h"
 #include "core/speech/marked_text.h"
 #include "core/speech/sounds.h"
+#include "core/speech/whole_words.h"
 #include "core/types/printable.h"
 #include "server/voice/speech_texts.h"
 
@@ -104,6 +105,7 @@ Result<Spoken> spoken(const VoiceProgram& program, const SpeechRequest& request,
   if (!utterance) return utterance.error();
   if (wish.ssml) place_in_text(ssml, *utterance);
   said.utterance = *std::move(utterance);
+  keep_whole_words(said.utterance, said.marked.text);
   return said;
 }
 

@@ -9,6 +9,7 @@
 
 #include "core/speech/characters.h"
 #include "core/speech/segments.h"
+#include "core/speech/text_breaks.h"
 #include "protocol/cpp/speech_score.h"
 
 namespace semblante::voice {
@@ -21,8 +22,6 @@ constexpr std::size_t longest_language = 64;  ///< bytes, of a message
 constexpr std::uint8_t closed_lips = 1;       ///< the viseme of p, b, m
 /// A shorter closure of the lips may fall between two frames of 25 a second.
 constexpr std::uint32_t least_closure = 2 * score_unit;
-
-bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
 /// A word that was said: where it begins, in bytes of the text, and when.
 struct Place {
@@ -40,13 +39,6 @@ std::vector<Place> places_of(const Utterance& utterance, const Characters& chara
   return places;
 }
 
-bool ends_sentence(std::string_view text) {
-  while (!text.empty() &&
-         (is_space(text.back()) || std::string_view("\"')]").find(text.back()) != std::string_view::npos))
-    text.remove_suffix(1);
-  return !text.empty() && std::string_view(".!?").find(text.back()) != std::string_view::npos;
-}
-
 /// The places at which parts begin: sentences, and words within sentences that are too long.
 std::vector<std::size_t> parts_of(const Speech& speech, const std::vector<Place>& places,
                                   const Characters& characters) {
@@ -61,7 +53,7 @@ std::vector<std::size_t> parts_of(const Speech& speech, const std::vector<Place>
     for (; sentence != sentences.end() && *sentence <= places[i].byte; ++sentence) begins = true;
     // A voice may tell the first one only.
     if (i > 0 && sentences.size() < 2)
-      begins = ends_sentence(text.substr(places[i - 1].byte, places[i].byte - places[i - 1].byte));
+      begins = is_sentence_end(text.substr(places[i - 1].byte, places[i].byte - places[i - 1].byte));
     const std::size_t end = i + 1 < places.size() ? places[i + 1].byte : text.size();
     if (begins || end - places[parts.back()].byte > longest_part) parts.push_back(i);
   }
@@ -144,7 +136,7 @@ Part part_from(const Speech& speech, std::span<const Place> places, bool is_firs
   part.from = is_first ? 0 : with_opening(whole, places.front().byte);
   const std::size_t end = next != nullptr ? with_opening(whole, next->byte) : whole.size();
   part.text = whole.substr(part.from, end - part.from);
-  while (!part.text.empty() && is_space(part.text.back())) part.text.remove_suffix(1);
+  while (!part.text.empty() && separates_words(part.text.back())) part.text.remove_suffix(1);
   // A text without spaces may still be too long for a message; what is cut off is said by nobody.
   if (part.text.size() > max_speech_text_bytes) {
     std::size_t cut = max_speech_text_bytes;

@@ -4,6 +4,7 @@
 #include "core/speech/loudness.h"
 #include "core/speech/speech.h"
 #include "core/speech/wav.h"
+#include "core/speech/whole_words.h"
 
 namespace semblante {
 namespace {
@@ -23,6 +24,29 @@ TEST(WebVtt, WordsOutsideTheText_DoNoHarm) {
   said.duration = 2000;
   said.words = {{10, {90, 3}}, {20, {1, 20000}}};
   EXPECT_NE(web_vtt(said, "ab").find("WEBVTT"), std::string::npos);
+}
+
+TEST(WholeWords, SignsAloneAndPartsOfWords_AreNone) {
+  // As espeak-ng tells them of "<speak>Code <say-as interpret-as='characters'>XY</say-as>. It is <say-as
+  // interpret-as='digits'>123</say-as>, no? </speak>"
+  const std::string text = "Code XY. It is 123, né? … 。";
+  Utterance said;
+  said.duration = 3000;
+  said.words = {{0, {0, 4}},     {500, {5, 2}},   {1100, {7, 1}},  {1200, {9, 2}},  {1300, {12, 2}}, {1400, {15, 3}},
+                {1800, {16, 3}}, {2000, {20, 2}}, {2100, {22, 1}}, {2200, {24, 1}}, {2300, {26, 1}}};
+  keep_whole_words(said, text);
+  std::vector<std::size_t> places;
+  for (const auto& word : said.words) places.push_back(word.range.first);
+  EXPECT_EQ(places, (std::vector<std::size_t>{0, 5, 9, 12, 15, 20}));
+  EXPECT_EQ(web_vtt(said, text).find("-->", 40), std::string::npos) << "one cue";
+}
+
+TEST(WholeWords, SmileysNumbersAndUnits_AreWords) {
+  const std::string text = "😀 5 % & €";
+  Utterance said;
+  said.words = {{0, {0, 1}}, {1, {2, 1}}, {2, {4, 1}}, {3, {6, 1}}, {4, {8, 1}}};
+  keep_whole_words(said, text);
+  EXPECT_EQ(said.words.size(), 5U);
 }
 
 TEST(Wav, HasItsHeader_AndSilenceAround) {
