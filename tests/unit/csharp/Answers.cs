@@ -61,7 +61,7 @@ static unsafe class Answers {
                 Frame mouth;
                 using (var listener = new Listener(16000)) return listener.Push(samples, out mouth) ? Words(mouth) : "nothing";
             case "stream":
-                stream = new Semblante.Stream();
+                stream = new Semblante.Stream(captions: true);
                 player = new Player(100);
                 player.Follow(stream);
                 stream.Start(0);
@@ -71,7 +71,12 @@ static unsafe class Answers {
                 stream.Receive(Bytes(words[2]), Number(words[1]));
                 var happened = new StringBuilder();
                 StreamEvent next;
-                while (stream.NextEvent(out next)) happened.Append(next.Type).Append(' ');
+                while (stream.NextEvent(out next)) {
+                    happened.Append(next.Type).Append(' ');
+                    if (next.Said != null)
+                        happened.Append(next.Number + "|" + next.Language + "|" + next.Said + "|" + Number(next.Duration) + "|" +
+                                        string.Join(",", next.WordTimes.Select(time => Number(time))) + " ");
+                }
                 return happened + stream.Frames().Length.ToString();
             case "frame":
                 return Words(stream.Frames()[int.Parse(words[1])].Frame);

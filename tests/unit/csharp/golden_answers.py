@@ -59,6 +59,8 @@ class GoldenAnswers:
         messages = json.loads((VECTORS / "v1/messages.json").read_text())["messages"]
         header = next(m["binary"] for m in messages if m["json"]["type"] == "header")
         self.assertIn("Header", self.ask("receive", 10, header))
+        text = "0b03e80c02656e05416d20706504ab1119b3"
+        self.assertIn("Text 3|en|Am pe|360|0,180 ", self.ask("receive", 15, text))
         stream = json.loads((VECTORS / "v1/packed.json").read_text())["streams"][-1]["messages"]
         for message in stream:
             self.assertIn("Keyframe" if message["json"]["type"] == "keyframe" else "Frames", self.ask("receive", 20, message["binary"]))

@@ -121,6 +121,7 @@ final class Answers {
                 return mouth == null ? "nothing" : words(mouth);
             case "stream":
                 stream = new Stream();
+                stream.setCaptions(true);
                 player = new Player(100, false);
                 player.follow(stream);
                 stream.start(0);
@@ -131,8 +132,13 @@ final class Answers {
             case "receive":
                 stream.receive(bytes(words[2]), Double.parseDouble(words[1]));
                 StringBuilder happened = new StringBuilder();
-                for (StreamEvent next = stream.nextEvent(); next != null; next = stream.nextEvent())
+                for (StreamEvent next = stream.nextEvent(); next != null; next = stream.nextEvent()) {
                     happened.append(named(next.type)).append(' ');
+                    if (next.said == null) continue;
+                    happened.append(next.number + "|" + next.language + "|" + next.said + "|" + (int) next.duration + "|");
+                    for (int i = 0; i < next.wordTimes.length; ++i) happened.append(i > 0 ? "," : "").append((int) next.wordTimes[i]);
+                    happened.append(' ');
+                }
                 return happened.toString() + stream.frames().length;
             case "play":
                 boolean shows = player.advance(Double.parseDouble(words[1]), Double.parseDouble(words[2]));

@@ -87,6 +87,7 @@ class Speakers(unittest.TestCase):
             self.assertEqual(event.type, semblante.EventType.TEXT)
             self.assertEqual((event.sequence, event.media_time, event.duration), (3, 1640, 360))
             self.assertEqual(stream.text(event), ("Am pe", "en", self.SCORE))
+            self.assertEqual(stream.word_times(event), [0, 180])
             stream.spoken(semblante.VoiceState.ENDED, 30, speech=3, character=5)
             self.assertEqual(stream.take_bytes()[:4], bytes([12, 1, 3, 5]))
 
