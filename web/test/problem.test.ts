@@ -1,7 +1,29 @@
-import { describe, expect, test } from 'vitest';
-import { featurePointOf, fieldProblems, problemFrom } from '../src/net/problem.ts';
+import { afterEach, describe, expect, test, vi } from 'vitest';
+import { featurePointOf, fieldProblems, problemFrom, titleOf, wordsOf } from '../src/net/problem.ts';
+
+afterEach(() => {
+  vi.unstubAllGlobals();
+  vi.resetModules();
+});
 
 describe('problem documents', () => {
+  const refused = { type: '/problems/malformed-model', title: 'The model file cannot be read', status: 422, detail: 'line 3: no number' };
+
+  test('Words_InEnglish_AreTheDetail', () => {
+    expect([titleOf(refused), wordsOf(refused)]).toEqual([refused.title, refused.detail]);
+    expect(wordsOf({ type: 'about:blank', title: 'Bad Gateway', status: 502 })).toBe('Bad Gateway');
+  });
+
+  test('Words_InPortuguese_BeginWithTheTitleByItsCode', async () => {
+    vi.stubGlobal('navigator', { languages: ['pt-BR'] });
+    vi.resetModules();
+    const there = await import('../src/net/problem.ts');
+    const title = 'O arquivo do modelo não pode ser lido';
+    expect([there.titleOf(refused), there.wordsOf(refused)]).toEqual([title, `${title}: line 3: no number`]);
+    // A title of this page, or of a proxy, is not the server's.
+    expect(there.wordsOf({ type: 'about:blank', title: 'Bad Gateway', status: 502, detail: 'none' })).toBe('none');
+  });
+
   test('ProblemFrom_ProblemJson_KeepsItsMembers', () => {
     const body = JSON.stringify({
       type: '/problems/invalid-feature-point',

@@ -7,6 +7,7 @@ import { expect, test } from 'vitest';
 import { capital, fapTitle } from '../src/ui/shared/names.ts';
 import { portuguese } from '../src/words/portuguese.ts';
 import { portugueseNames } from '../src/words/portuguese_names.ts';
+import { portugueseProblems } from '../src/words/portuguese_problems.ts';
 import { languageOf, t } from '../src/words/words.ts';
 
 const source = fileURLToPath(new URL('../src', import.meta.url));
@@ -94,6 +95,13 @@ test('Words_NamesOfTheStandard_AllHaveATranslation', () => {
     ...expressions.slice(1).flatMap(({ name, description }) => [capital(name), description]),
   ];
   expect(names.filter((name) => portugueseNames[name] === undefined)).toEqual([]);
+});
+
+test('Words_ProblemsOfTheServer_AllHaveATitle', () => {
+  const server = readFileSync(new URL('../../server/http/problem.cpp', import.meta.url), 'utf8');
+  const slugs = [...server.matchAll(/^ {4}\{"([a-z-]+)", \d{3}, "/gm)].map((match) => match[1]!);
+  expect(slugs).toContain('malformed-model');
+  expect(Object.keys(portugueseProblems).sort()).toEqual(slugs.sort());
 });
 
 test('Words_Values_AreFilledIn', () => {

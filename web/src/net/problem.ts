@@ -1,6 +1,6 @@
 import { anyFormat, formatList } from './model_formats.ts';
 import type { Problem } from './types.ts';
-import { t } from '../words/words.ts';
+import { problemTitle, t } from '../words/words.ts';
 
 /** One error of a problem document; without a pointer it concerns the whole request. */
 export interface FieldProblem {
@@ -14,7 +14,7 @@ export class ApiError extends Error {
     readonly problem: Problem,
     readonly retryAfter: number | null = null,
   ) {
-    super(problem.detail ?? problem.title);
+    super(wordsOf(problem));
     this.name = 'ApiError';
   }
 }
@@ -25,6 +25,18 @@ export const unreachable = (detail: string): Problem => ({
   status: 0,
   detail,
 });
+
+const slugOf = (problem: Problem): string => problem.type.split('/').pop() ?? '';
+
+/** The title of a problem in the language of the page. */
+export const titleOf = (problem: Problem): string => problemTitle(slugOf(problem)) ?? problem.title;
+
+/** What a problem says: its detail, which the server writes in English, after the title where that is in another language. */
+export function wordsOf(problem: Problem): string {
+  const title = titleOf(problem);
+  if (problem.detail === undefined) return title;
+  return title === problem.title ? problem.detail : `${title}: ${problem.detail}`;
+}
 
 /** Parses the body of an error response. Any other body is wrapped in a problem document, so callers have one case. */
 export function problemFrom(status: number, statusText: string, contentType: string, body: string): Problem {
@@ -49,7 +61,7 @@ function isProblem(value: unknown): value is Problem {
 /** The errors of a problem as (pointer, reason); a problem without pointers gives one entry without a pointer. */
 export function fieldProblems(problem: Problem): FieldProblem[] {
   if (problem.errors && problem.errors.length > 0) return problem.errors;
-  const detail = problem.detail ?? problem.title;
+  const detail = wordsOf(problem);
   return [problem.pointer === undefined ? { detail } : { pointer: problem.pointer, detail }];
 }
 
@@ -61,7 +73,7 @@ export function featurePointOf(pointer: string | undefined): string | null {
 
 /** Advice for the user in one sentence, or null when there is none better than "try again". */
 export function adviceFor(problem: Problem): string | null {
-  const slug = problem.type.split('/').pop() ?? '';
+  const slug = slugOf(problem);
   if (problem.status === 0) return t('Check that the server is running, then try again.');
   if (slug === 'malformed-model') return t('Export the head again as {anyFormat}.', { anyFormat });
   if (slug === 'unsupported-media-type') return t('Use a file in one of these formats: {formatList}.', { formatList });

@@ -14,6 +14,7 @@ export const language = chosenLanguage() ?? languageOf(globalThis.navigator?.lan
 // A table is loaded only for its language.
 const table: Readonly<Record<Text, string>> | null =
   language === 'pt-BR' ? (await import('./portuguese.ts')).portuguese : null;
+const problems = language === 'pt-BR' ? (await import('./portuguese_problems.ts')).portugueseProblems : null;
 const names = language === 'pt-BR' ? (await import('./portuguese_names.ts')).portugueseNames : null;
 
 /** A text in the language of the page, with its `{names}` replaced by values. */
@@ -27,6 +28,9 @@ const shown = (value: string | number): string =>
 
 /** A name of the standard's tables, or the title of a finding, in the language of the page. */
 export const nameOf = (english: string): string => names?.[english] ?? english;
+
+/** The title of a kind of the server's problems (the end of its `type`) in the language of the page; null: it stays as the server wrote it. */
+export const problemTitle = (slug: string): string | null => problems?.[slug] ?? null;
 
 /** The first language of a browser's list that the studio has, else English. */
 export function languageOf(wanted: readonly string[]): Language {

@@ -2,7 +2,7 @@ import { neutralFrame } from '@client/index.ts';
 import { frameToJson, type JsonFrame } from '@protocol/json_codec.ts';
 import { codeFor, codeLanguages, sendsIntoStream, type CodeLanguage } from '../../net/code_examples.ts';
 import { clipCode, recordingCode } from '../../net/code_motion.ts';
-import { problemOf } from '../../net/problem.ts';
+import { problemOf, titleOf } from '../../net/problem.ts';
 import { getSession } from '../../net/session.ts';
 import type { Recording, RecordingFormat } from '../../net/types.ts';
 import type { LiveModel } from '../live/live_model.ts';
@@ -83,7 +83,7 @@ class CodeDialog {
       this.asksForTokens = (await getSession(this.studio.api.base)).asks_for_tokens;
       this.draw();
     } catch (error) {
-      setText(this.note, problemOf(error).title);
+      setText(this.note, titleOf(problemOf(error)));
     }
   }
 
@@ -153,7 +153,7 @@ class CodeDialog {
       this.recording = this.recordings[0]?.id ?? '';
       this.draw();
     } catch (error) {
-      setText(this.note, problemOf(error).title);
+      setText(this.note, titleOf(problemOf(error)));
     }
   }
 

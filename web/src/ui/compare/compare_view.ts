@@ -1,3 +1,4 @@
+import { wordsOf } from '../../net/problem.ts';
 import type { Model } from '../../net/types.ts';
 import { CameraLink } from '../../view/camera_link.ts';
 import { InfluenceModel } from '../influence/influence_model.ts';
@@ -67,7 +68,7 @@ export class CompareView {
       }),
       this.scene.state.watch((state) => {
         this.message.hidden = state.kind === 'ready';
-        const words = state.kind === 'failed' ? (state.problem.detail ?? state.problem.title) : t('Opening the head');
+        const words = state.kind === 'failed' ? wordsOf(state.problem) : t('Opening the head');
         replace(this.message, state.kind === 'failed' ? null : h('span', { class: 'spinner', 'aria-hidden': 'true' }), h('span', {}, words));
       }),
     ];

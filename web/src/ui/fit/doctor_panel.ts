@@ -1,4 +1,4 @@
-import { adviceFor } from '../../net/problem.ts';
+import { adviceFor, wordsOf } from '../../net/problem.ts';
 import type { Finding, FitReport, Model, Severity } from '../../net/types.ts';
 import { h, replace } from '../shared/dom.ts';
 import { actionFor, type FindingAction } from './finding_actions.ts';
@@ -52,7 +52,7 @@ export class DoctorPanel {
           'p',
           { class: 'notice error', role: 'alert' },
           icon('warning', 16),
-          h('span', {}, state.problem.detail ?? state.problem.title, advice ? ` ${advice}` : ''),
+          h('span', {}, wordsOf(state.problem), advice ? ` ${advice}` : ''),
         ),
       );
       return;

@@ -1,6 +1,6 @@
 import { headFileEndings } from '../../net/head_files.ts';
 import { formatList } from '../../net/model_formats.ts';
-import { adviceFor } from '../../net/problem.ts';
+import { adviceFor, titleOf, wordsOf } from '../../net/problem.ts';
 import type { Model } from '../../net/types.ts';
 import { ask } from '../shared/dialog.ts';
 import { h, replace } from '../shared/dom.ts';
@@ -101,7 +101,7 @@ export class Shelf {
           h(
             'div',
             { role: 'alert' },
-            h('strong', {}, state.problem.title),
+            h('strong', {}, titleOf(state.problem)),
             advice ? h('p', {}, advice) : null,
             h('button', { type: 'button', on: { click: () => void studio.start() } }, t('Try again')),
           ),
@@ -185,7 +185,7 @@ export class Shelf {
       ),
       activity ? progressBar(activity) : null,
       selected && model.state === 'failed' && model.problem
-        ? h('p', { class: 'head-problem' }, [model.problem.pointer, model.problem.detail ?? model.problem.title].filter(Boolean).join(' '))
+        ? h('p', { class: 'head-problem' }, [model.problem.pointer, wordsOf(model.problem)].filter(Boolean).join(' '))
         : null,
     );
   }

@@ -1,3 +1,4 @@
+import { titleOf } from '../../net/problem.ts';
 import type { Player } from '@client/index.ts';
 import type { StreamInfo } from '../../net/types.ts';
 import { ask } from '../shared/dialog.ts';
@@ -201,7 +202,7 @@ export class LivePanel {
           'li',
           { class: 'notice error' },
           icon('warning', 16),
-          h('div', { role: 'alert' }, h('strong', {}, problem.title), h('p', {}, t('Retrying every few seconds.'))),
+          h('div', { role: 'alert' }, h('strong', {}, titleOf(problem)), h('p', {}, t('Retrying every few seconds.'))),
         ),
       );
       return;

@@ -1,6 +1,6 @@
 import { encode } from 'uqr';
 import { isLoopback, phoneLink } from '../../net/phone_link.ts';
-import { problemOf } from '../../net/problem.ts';
+import { problemOf, titleOf } from '../../net/problem.ts';
 import { getSession } from '../../net/session.ts';
 import type { Session, StreamInfo } from '../../net/types.ts';
 import { showDialog } from '../shared/dialog.ts';
@@ -75,7 +75,7 @@ export class PhoneDialog {
       setText(this.privacy, words);
       this.invite.hidden = words === '' || session.scope !== 'admin';
     } catch (error) {
-      setText(this.privacy, problemOf(error).title);
+      setText(this.privacy, titleOf(problemOf(error)));
     }
   }
 
@@ -110,7 +110,7 @@ export class PhoneDialog {
       this.invite.hidden = true;
       setText(this.privacy, t('Whoever has this address sees the stream, for 12 hours.'));
     } catch (error) {
-      setText(this.privacy, problemOf(error).title);
+      setText(this.privacy, titleOf(problemOf(error)));
     }
     this.invite.disabled = false;
   }

@@ -1,4 +1,4 @@
-import { problemOf } from '../../net/problem.ts';
+import { problemOf, wordsOf } from '../../net/problem.ts';
 import { getSession, invitedToken, signIn, signOut } from '../../net/session.ts';
 import type { Session } from '../../net/types.ts';
 import { forgetKept } from '../../../offline/register.ts';
@@ -24,7 +24,7 @@ export async function letIn(base: string, root: HTMLElement): Promise<Session | 
     const problem = problemOf(error);
     // A server that does not answer is the studio's own message.
     if (problem.status !== 401) return null;
-    reason = problem.detail ?? problem.title;
+    reason = wordsOf(problem);
   }
   return askForToken(base, root, reason);
 }
@@ -62,7 +62,7 @@ function askForToken(base: string, root: HTMLElement, reason: string): Promise<S
               resolve,
               (error: unknown) => {
                 const problem = problemOf(error);
-                fault.textContent = capital(problem.detail ?? problem.title);
+                fault.textContent = capital(wordsOf(problem));
                 button.disabled = false;
                 input.select();
               },

@@ -1,5 +1,5 @@
 import { formatList } from '../../net/model_formats.ts';
-import { adviceFor } from '../../net/problem.ts';
+import { adviceFor, titleOf } from '../../net/problem.ts';
 import type { Problem } from '../../net/types.ts';
 import { h } from '../shared/dom.ts';
 import { formatPercent } from '../shared/format.ts';
@@ -75,7 +75,7 @@ function failure(problem: Problem, again: (() => void) | null): HTMLElement {
     'div',
     { class: 'stage-card error', role: 'alert' },
     icon('warning', 32),
-    h('h2', {}, problem.title),
+    h('h2', {}, titleOf(problem)),
     problem.detail ? h('p', {}, problem.pointer ? [h('code', {}, problem.pointer), ' '] : null, problem.detail) : null,
     advice ? h('p', { class: 'advice' }, advice) : null,
     again ? h('button', { type: 'button', on: { click: again } }, t('Try again')) : null,

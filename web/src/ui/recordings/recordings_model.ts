@@ -1,4 +1,4 @@
-import { problemOf } from '../../net/problem.ts';
+import { problemOf, wordsOf } from '../../net/problem.ts';
 import { recordingEndings } from '../../net/recording_endings.ts';
 import type { Problem, Recording, RecordingFormat } from '../../net/types.ts';
 import type { FaceDriver } from '../stage/face_driver.ts';
@@ -103,7 +103,7 @@ export class RecordingsModel {
         // Other conflicts concern the recording itself and are not resolved by taking the stream over.
         await this.live.refresh();
         if (problem.status !== 409 || takeOver || !this.taken(stream)) throw error;
-        held = problem.detail ?? problem.title;
+        held = wordsOf(problem);
       }
       await this.live.refresh();
     });

@@ -1,4 +1,4 @@
-import { adviceFor } from '../../net/problem.ts';
+import { adviceFor, wordsOf } from '../../net/problem.ts';
 import type { Problem } from '../../net/types.ts';
 import { h } from './dom.ts';
 import { icon } from './icons.ts';
@@ -30,7 +30,7 @@ export class Toasts {
 
   problem(what: string, problem: Problem): void {
     const advice = adviceFor(problem);
-    const detail = problem.detail ?? problem.title;
+    const detail = wordsOf(problem);
     this.show(
       'error',
       icon('warning'),

@@ -1,5 +1,5 @@
 import type { Api } from '../../net/api.ts';
-import { problemOf } from '../../net/problem.ts';
+import { problemOf, wordsOf } from '../../net/problem.ts';
 import type { Playing, Recording, StreamSpeech } from '../../net/types.ts';
 import type { LiveModel } from '../live/live_model.ts';
 import { messageOf } from '../shared/message_of.ts';
@@ -69,7 +69,7 @@ export class StreamSpeechModel {
       const problem = problemOf(error);
       await this.live.refresh();
       const taken = this.live.streams.value?.some(({ id, active_source }) => id === this.target.value && active_source !== null);
-      if (problem.status === 409 && !takeOver && taken) held = problem.detail ?? problem.title;
+      if (problem.status === 409 && !takeOver && taken) held = wordsOf(problem);
       this.state.set(held === null ? { kind: 'failed', message: messageOf(error) } : { kind: 'off' });
     }
     return held;
