@@ -35,7 +35,7 @@ describe('clip', () => {
 
   test('FapFile_WhatAFrameLeavesOut_IsZeroOrStays', () => {
     const text = readFileSync(new URL('../../protocol/vectors/fap/mask_changes.fap', import.meta.url), 'utf8');
-    const file = readClipFile(library, 'a.fap', text);
+    const file = readClipFile(library, 'fap', text);
     const levels = (absent: 'zero' | 'keep'): number[] =>
       (clipOf(library, file, absent) as FrameClip).frames.map(({ state }) => state.levels.filter((level) => level !== 0).length);
     const [zero, keep] = [levels('zero'), levels('keep')];

@@ -4,7 +4,7 @@ import { Performance, type Library } from '@client/motion/index.ts';
 import { ProtocolError } from '@protocol/protocol_error.ts';
 import { loadLibrary } from '../../tests/unit/ts/support/runtime.ts';
 import { ClipPlayer } from '../src/face/clip.ts';
-import { clipOf, readClipFile } from '../src/face/clip_file.ts';
+import { clipOf, kindOfClip, readClipFile, type ClipKind } from '../src/face/clip_file.ts';
 import { fineSteps } from '../src/face/fine_steps.ts';
 import { PerformanceClip } from '../src/face/performance_clip.ts';
 
@@ -37,7 +37,7 @@ describe('performance clip', () => {
   });
 
   test('IdleAlone_HasNoEnd_AndGoesOn', () => {
-    const file = readClipFile(library, 'idle.json', idleText);
+    const file = readClipFile(library, 'performance', idleText);
     const clip = clipOf(library, file, 'zero');
     expect(clip.duration).toBe(Infinity);
     const player = new ClipPlayer();
@@ -66,18 +66,27 @@ describe('performance clip', () => {
     expect([from.time, [...from.state.levels]]).toEqual([500, levelsAt(clip, 500, 3)[0]]);
   });
 
+  test('File_OfMotion_IsWhatItsTextSays_WhateverItsName', () => {
+    for (const name of ['a.fap', 'a.json', 'a.txt', 'a']) {
+      expect(kindOfClip(name, hello), name).toBe('performance');
+      expect(kindOfClip(name, '# a take\n2.1 hello 25 2\n'), name).toBe('fap');
+    }
+    expect(kindOfClip('a.FAP', 'rubbish')).toBe('fap');
+    expect(kindOfClip('a.json', 'rubbish')).toBe('performance');
+  });
+
   test('File_WithAFault_NamesItsPointerOrItsLine', () => {
-    const where = (name: string, text: string): string => {
+    const where = (kind: ClipKind, text: string): string => {
       try {
-        readClipFile(library, name, text);
+        readClipFile(library, kind, text);
       } catch (error) {
         if (error instanceof ProtocolError) return error.where;
         throw error;
       }
       return 'nowhere';
     };
-    expect(where('a.json', hello.replace('"viseme": "n_l"', '"viseme": "xyz"'))).toBe('/cues/3/viseme');
-    expect(where('a.FAP', hello)).toMatch(/^line 1/);
-    expect(where('a.json', hello)).toBe('nowhere');
+    expect(where('performance', hello.replace('"viseme": "n_l"', '"viseme": "xyz"'))).toBe('/cues/3/viseme');
+    expect(where('fap', hello)).toMatch(/^line 1/);
+    expect(where('performance', hello)).toBe('nowhere');
   });
 });

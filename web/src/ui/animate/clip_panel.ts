@@ -2,7 +2,7 @@ import type { Library } from '@client/motion/index.ts';
 import { ProtocolError } from '@protocol/protocol_error.ts';
 import type { ClipPlayer } from '../../face/clip.ts';
 import { emptyDocument, type CueDocument } from '../../face/cue_sheet.ts';
-import { clipOf, readClipFile, type ClipFile } from '../../face/clip_file.ts';
+import { clipOf, kindOfClip, readClipFile, type ClipFile } from '../../face/clip_file.ts';
 import { absentChoice, type Absent } from '../documents/absent_choice.ts';
 import { bestExample } from '../documents/examples.ts';
 import { excerptAt } from '../documents/document_place.ts';
@@ -115,7 +115,7 @@ export class ClipPanel {
   private edited(document: CueDocument): void {
     const { file } = this;
     if (!file) return;
-    this.file = { ...file, content: readClipFile(file.library, file.name, JSON.stringify(document)) };
+    this.file = { ...file, content: readClipFile(file.library, 'performance', JSON.stringify(document)) };
     this.driver.byClip();
     this.read(true);
     this.draw();
@@ -124,7 +124,7 @@ export class ClipPanel {
   private saveDocument(): void {
     const document = this.cues.document.value;
     if (document && this.file)
-      this.save(new Blob([JSON.stringify(document, null, 1)], { type: 'application/json' }), this.file.name);
+      this.save(new Blob([JSON.stringify(document, null, 1)], { type: 'application/json' }), `${this.file.name.replace(/\.[a-z0-9]+$/i, '')}.json`);
   }
 
   private async take(name: string, text: string, plays = true): Promise<void> {
@@ -132,7 +132,7 @@ export class ClipPanel {
     try {
       const library = await this.load();
       if (number !== this.newest) return; // another file was taken meanwhile
-      this.file = { name, content: readClipFile(library, name, text), library };
+      this.file = { name, content: readClipFile(library, kindOfClip(name, text), text), library };
       this.cues.open(this.file.content.kind === 'performance' ? (JSON.parse(text) as CueDocument) : null);
       this.read(false);
       if (plays) return this.play();

@@ -1,5 +1,5 @@
 import { kindOfClip } from '../../face/clip_file.ts';
-import { adviceFor } from '../../net/problem.ts';
+import { adviceFor, wordsOf } from '../../net/problem.ts';
 import { absentChoice } from '../documents/absent_choice.ts';
 import { h, redraw, replace, setText } from '../shared/dom.ts';
 import { exampleSelect } from '../documents/example_select.ts';
@@ -108,7 +108,8 @@ export class PerformancePanel {
   }
 
   async takeFile(file: File): Promise<void> {
-    this.model.choose({ kind: kindOfClip(file.name), title: file.name, text: await file.text() });
+    const text = await file.text();
+    this.model.choose({ kind: kindOfClip(file.name, text), title: file.name, text });
   }
 
   /** Call a few times a second. */
@@ -217,7 +218,7 @@ export class PerformancePanel {
         h(
           'div',
           { class: 'grow' },
-          h('strong', {}, holder ?? capital(problem.detail ?? problem.title)),
+          h('strong', {}, holder ?? capital(wordsOf(problem))),
           problem.pointer ? h('p', {}, t('At '), h('code', {}, problem.pointer)) : null,
           excerptBox(excerpt),
           advice ? h('p', {}, advice) : null,

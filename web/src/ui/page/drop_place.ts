@@ -1,3 +1,4 @@
+import { beginsAsFap } from '../../face/clip_file.ts';
 import type { Tab } from '../shared/studio.ts';
 import { soundEndings } from '../speak/sound_files.ts';
 
@@ -19,8 +20,7 @@ export async function kindOfFile(file: Pick<File, 'name' | 'size' | 'text' | 'sl
   const name = file.name.toLowerCase();
   const start = await file.slice(0, startLength).text();
   if (/^(RIFF[^]{4}WAVE|OggS|fLaC|ID3)/.test(start)) return 'sound';
-  // The version of the format, a name, frames a second and the number of frames.
-  if (/^(\s*#.*\n)*\s*\d\.\d+\s+\S+\s+[\d.]+\s+\d+\s*(\n|$)/.test(start)) return 'fap';
+  if (beginsAsFap(start)) return 'fap';
   if (/^\uFEFF?\s*\{/.test(start)) {
     if (/"format"\s*:\s*"semblante\.performance"/.test(start)) return 'performance';
     if (file.size <= mostPoints && isPoints(await file.text())) return 'points';

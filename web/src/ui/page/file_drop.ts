@@ -19,11 +19,7 @@ export interface DropReceivers {
 export function routeDrops(page: HTMLElement, { studio, points, performance, clip, speak }: DropReceivers): void {
   acceptDrops(page, async (files) => {
     const { value: tab } = studio.tab;
-    const kinds = await Promise.all(files.map(({ file }) => kindOfFile(file)));
-    const places = kinds.map((kind) => dropPlace(kind, tab));
-    // Whoever reads motion tells the two kinds apart by the ending.
-    const motion = (script: PathFile): File =>
-      kinds[files.indexOf(script)] === 'fap' && !/\.fap$/i.test(script.file.name) ? new File([script.file], `${script.file.name}.fap`) : script.file;
+    const places = await Promise.all(files.map(async ({ file }) => dropPlace(await kindOfFile(file), tab)));
     const going = (place: DropPlace): PathFile[] => files.filter((_, i) => places[i] === place);
     const [set, script, file, sound] = (['points', 'stream', 'page', 'speech'] as const).map((place) => going(place).at(-1));
     const heads = going('heads');
@@ -32,10 +28,10 @@ export function routeDrops(page: HTMLElement, { studio, points, performance, cli
       void points.importFile(set.file);
     } else if (script) {
       studio.tab.set('live');
-      void performance.takeFile(motion(script));
+      void performance.takeFile(script.file);
     } else if (file) {
       studio.tab.set('animate');
-      void clip.takeFile(motion(file));
+      void clip.takeFile(file.file);
     } else if (sound) {
       studio.tab.set('animate');
       speak.takeRecording(sound.file);
