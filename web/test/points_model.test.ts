@@ -47,12 +47,12 @@ class Server {
 }
 
 /** The page of one person who has opened the head. */
-async function open(server: Server): Promise<{ points: PointsModel; said: string[]; problems: string[] }> {
+async function open(server: Server, storage = memory()): Promise<{ points: PointsModel; said: string[]; problems: string[] }> {
   const said: string[] = [];
   const problems: string[] = [];
   const toasts = { say: (words: string) => said.push(words), problem: (words: string) => problems.push(words) } as unknown as Toasts;
   const studio = new Studio(server.api as unknown as Api, toasts);
-  const points = new PointsModel(studio, new DraftStore(memory()), new MirrorLock(studio, new SettingsStore(memory())));
+  const points = new PointsModel(studio, new DraftStore(storage), new MirrorLock(studio, new SettingsStore(memory())));
   await points.open(ana);
   return { points, said, problems };
 }
@@ -115,6 +115,27 @@ test.each([true, false])('Points_OnePointChangedByBoth_IsAChoice (theirs: %s)', 
   if (theirs) points.undo();
   expect(await points.save()).toBe(true);
   expect(vertices(Object.entries(server.points))).toEqual({ '2.1': 20, '3.1': 2 });
+});
+
+test.each([true, false])('Points_OfADraftThatComesBack_ChangedElsewhereMeanwhile_AreAChoice (theirs: %s)', async (theirs) => {
+  const server = new Server();
+  const storage = memory();
+  const before = await open(server, storage);
+  move(before.points, '2.1', 20);
+  move(before.points, '3.1', 40);
+  server.write({ '2.1': at(10) });
+  const { points, said } = await open(server, storage);
+  expect(points.contested).toEqual(['2.1']);
+  expect(said).toEqual(['Someone else changed points that you have changed too.']);
+  expect(vertices(points.draft.points)).toEqual({ '2.1': 20, '3.1': 40 });
+  const again = await open(server, storage); // undecided: it stays a choice
+  expect(again.points.contested).toEqual(['2.1']);
+  again.points.settle(theirs);
+  expect(again.points.contested).toEqual([]);
+  expect(vertices(again.points.draft.points)).toEqual({ '2.1': theirs ? 10 : 20, '3.1': 40 });
+  const decided = await open(server, storage);
+  expect(decided.points.contested).toEqual([]);
+  expect(decided.said).toEqual([theirs ? 'Your unsaved point is back.' : 'Your 2 unsaved points are back.']);
 });
 
 test('Units_SetByAnother_AreTakenAndSaid', async () => {

@@ -22,6 +22,17 @@ export interface PlacedPoint {
 
 export type PointsById = ReadonlyMap<string, PlacedPoint>;
 
+/** A point before or after a change; null: there is none. */
+export type PointOrNone = PlacedPoint | null;
+
+/** An unsaved change of a point: what it is now, and the server's point that it was made over; undefined: that is not known. */
+export interface PointChange {
+  point: PointOrNone;
+  over: PointOrNone | undefined;
+}
+
+export type PointChanges = ReadonlyMap<string, PointChange>;
+
 /** The feature points during editing: the saved set, the unsaved changes and the undo history. */
 export class PointDraft {
   private saved = new Map<string, PlacedPoint>();
@@ -51,13 +62,15 @@ export class PointDraft {
   /**
    * Takes points that someone else has saved: whatever is not changed here follows them, also in the steps that can be undone or
    * redone, so that undoing a change of one's own undoes nothing of theirs. Unsaved changes stay. `changed`: the ids that differ
-   * from before; `contested`: those among them that have another, unsaved change here.
+   * from before; `contested`: those among them that have another, unsaved change here, each with the server's point from before.
    */
-  rebase(points: Iterable<[string, PlacedPoint]>): { changed: string[]; contested: string[] } {
+  rebase(points: Iterable<[string, PlacedPoint]>): { changed: string[]; contested: Map<string, PointOrNone> } {
     const before = this.saved;
     const now = new Map([...points].filter(([id]) => pointById(id) !== undefined));
     const changed = [...new Set([...before.keys(), ...now.keys()])].filter((id) => !same(before.get(id), now.get(id)));
-    const contested = changed.filter((id) => this.isChanged(id) && !same(this.current.get(id), now.get(id)));
+    const contested = new Map(
+      changed.filter((id) => this.isChanged(id) && !same(this.current.get(id), now.get(id))).map((id) => [id, before.get(id) ?? null]),
+    );
     for (const state of [this.current, ...this.history, ...this.undone])
       for (const id of changed) if (same(state.get(id), before.get(id))) put(state, id, now.get(id));
     this.saved = now;
@@ -71,11 +84,21 @@ export class PointDraft {
     for (const id of ids) put(this.current, id, this.saved.get(id));
   }
 
-  /** Takes changes of an earlier visit, null for a removed point, as one step that can be undone. */
-  restore(changes: ReadonlyMap<string, PlacedPoint | null>): void {
-    if ([...changes].every(([id, point]) => same(this.current.get(id), point ?? undefined))) return;
+  /**
+   * Takes changes of an earlier visit as one step that can be undone. `isRead`: the saved set is the server's, which may have changed
+   * since then; otherwise what the changes were made over stands for it. Returns the contested points, as `rebase` does.
+   */
+  restore(changes: PointChanges, isRead: boolean): Map<string, PointOrNone> {
+    if ([...changes].every(([id, { point }]) => same(this.current.get(id), point ?? undefined))) return new Map();
+    const server = new Map(this.saved);
+    for (const [id, { over }] of changes) {
+      if (over === undefined) continue;
+      put(this.saved, id, over ?? undefined);
+      put(this.current, id, over ?? undefined);
+    }
     this.step();
-    for (const [id, point] of changes) put(this.current, id, point ?? undefined);
+    for (const [id, { point }] of changes) put(this.current, id, point ?? undefined);
+    return isRead ? this.rebase(server).contested : new Map();
   }
 
   /** Takes other points as one step that can be undone. */
@@ -153,10 +176,10 @@ export class PointDraft {
     return !same(this.saved.get(id), this.current.get(id));
   }
 
-  /** The points that differ from the server's; null for a removed one. */
-  get changed(): Map<string, PlacedPoint | null> {
+  /** The points that differ from the server's. */
+  get changed(): Map<string, PointChange> {
     const ids = [...new Set([...this.saved.keys(), ...this.current.keys()])].filter((id) => this.isChanged(id));
-    return new Map(ids.map((id) => [id, this.current.get(id) ?? null]));
+    return new Map(ids.map((id) => [id, { point: this.current.get(id) ?? null, over: this.saved.get(id) ?? null }]));
   }
 
   /** Number of points that differ from the server's. */

@@ -1,14 +1,12 @@
-import type { PlacedPoint } from '../../face/point_draft.ts';
+import type { PlacedPoint, PointChange, PointChanges, PointOrNone } from '../../face/point_draft.ts';
 import { pointById } from '../../face/feature_points.ts';
-
-/** Unsaved changes by point id; null: the point was removed. */
-export type PointChanges = ReadonlyMap<string, PlacedPoint | null>;
 
 const prefix = 'semblante.draft.';
 
 /**
  * Keeps the unsaved points of each head in the browser, so that they survive a reload, a change of head and a lost network.
- * Only what differs from the server's points is kept: what others save in the meantime stays theirs.
+ * Only what differs from the server's points is kept, with what it was made over: what others save in the meantime stays theirs, and is
+ * seen when it is of the same point.
  */
 export class DraftStore {
   constructor(private readonly storage: Storage | null) {}
@@ -18,7 +16,7 @@ export class DraftStore {
     const key = prefix + head;
     try {
       if (changes.size === 0) this.storage?.removeItem(key);
-      else this.storage?.setItem(key, JSON.stringify({ axes, points: Object.fromEntries(changes) }));
+      else this.storage?.setItem(key, JSON.stringify({ axes, points: column(changes, 'point'), over: column(changes, 'over') }));
     } catch {
       return; // storage is full or forbidden: the draft lasts as long as the page
     }
@@ -30,13 +28,14 @@ export class DraftStore {
 
   /** What was kept of a head; what is not understood is left out. */
   read(head: string, axes: string): PointChanges {
-    const changes = new Map<string, PlacedPoint | null>();
+    const changes = new Map<string, PointChange>();
     try {
       const kept = JSON.parse(this.storage?.getItem(prefix + head) ?? 'null') as unknown;
       if (!isRecord(kept) || kept['axes'] !== axes || !isRecord(kept['points'])) return changes;
+      const over = isRecord(kept['over']) ? kept['over'] : {};
       for (const [id, value] of Object.entries(kept['points'])) {
-        const point = value === null ? null : pointOf(value);
-        if (pointById(id) !== undefined && point !== undefined) changes.set(id, point);
+        const point = pointOrNone(value);
+        if (pointById(id) !== undefined && point !== undefined) changes.set(id, { point, over: pointOrNone(over[id]) });
       }
     } catch {
       return changes;
@@ -53,6 +52,12 @@ export function browserStorage(): Storage | null {
     return null;
   }
 }
+
+const column = (changes: PointChanges, member: keyof PointChange): Record<string, PointOrNone | undefined> =>
+  Object.fromEntries([...changes].map(([id, change]) => [id, change[member]]));
+
+/** undefined: not understood. */
+const pointOrNone = (value: unknown): PointOrNone | undefined => (value === null ? null : pointOf(value));
 
 function pointOf(value: unknown): PlacedPoint | undefined {
   if (!isRecord(value)) return undefined;

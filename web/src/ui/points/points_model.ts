@@ -1,6 +1,6 @@
 import { featurePoints } from '@protocol/generated/mpeg4.ts';
 import { middleOf } from '../../face/mirror_points.ts';
-import { PointDraft, proposalBody, type PlacedPoint } from '../../face/point_draft.ts';
+import { PointDraft, proposalBody, type PlacedPoint, type PointChanges, type PointOrNone } from '../../face/point_draft.ts';
 import { leastKnownPoints, quickSet } from '../../face/quick_set.ts';
 import { ApiError, featurePointOf, fieldProblems, problemOf } from '../../net/problem.ts';
 import type { FeaturePointsBody, FeaturePointSet, Model } from '../../net/types.ts';
@@ -26,7 +26,8 @@ export class PointsModel {
   problems: ReadonlyMap<string, readonly string[]> = new Map();
   /** Whether guided mode leads the user through the quick set. */
   readonly guided = new Signal(true);
-  private disputed: readonly string[] = [];
+  /** The points that were changed elsewhere too, each with the server's point that the change here was made over. */
+  private disputed: ReadonlyMap<string, PointOrNone> = new Map();
   /** The reasons why points could not be proposed, by id; of the last proposal job. */
   notProposed: ReadonlyMap<string, string> = new Map();
   /** Units set by hand, lengths in model units by name; the server keeps them when points are saved. */
@@ -62,18 +63,18 @@ export class PointsModel {
     this.clearProblems();
     this.draft.reset([]);
     this.notProposed = new Map();
-    this.disputed = [];
+    this.disputed = new Map();
     this.fapu = {};
     this.guidedByUser = false;
     this.etag = null;
     this.touch();
     if (!model || model.state === 'importing' || model.state === 'failed') return;
-    await this.studio.attempt(t('The feature points could not be read'), async () => {
+    const isRead = await this.studio.attempt(t('The feature points could not be read'), async () => {
       const answer = await this.studio.api.getFeaturePoints(model.id);
       if (this.model === model) this.take(answer.value, answer.etag, true);
     });
     // Without the server's points the kept ones are shown all the same.
-    if (this.model === model) this.bringBack(model.id);
+    if (this.model === model) this.bringBack(model.id, isRead);
   }
 
   /**
@@ -97,7 +98,7 @@ export class PointsModel {
       const unitsChanged = JSON.stringify(this.fapu) !== JSON.stringify(value.fapu);
       this.fapu = value.fapu;
       this.etag = etag;
-      this.disputed = [...new Set([...this.contested, ...contested])];
+      this.disputed = new Map([...contested, ...this.disputed]); // a point stays contested over what its first change was made over
       for (const id of changed) this.forgive(id);
       this.touch();
       if (known !== null) this.tellOf(changed.length, unitsChanged);
@@ -105,9 +106,8 @@ export class PointsModel {
   }
 
   private tellOf(changed: number, unitsChanged: boolean): void {
-    const { toasts, tab } = this.studio;
-    if (this.contested.length > 0)
-      toasts.say(t('Someone else changed points that you have changed too.'), { label: t('Choose'), act: () => tab.set('points') });
+    const { toasts } = this.studio;
+    if (this.contested.length > 0) this.tellOfContested();
     else if (changed > 0 && this.draft.changes > 0)
       toasts.say(
         changed === 1
@@ -119,26 +119,32 @@ export class PointsModel {
     else if (unitsChanged) toasts.say(t('Someone else changed the units of the face.'));
   }
 
+  private tellOfContested(): void {
+    const { toasts, tab } = this.studio;
+    toasts.say(t('Someone else changed points that you have changed too.'), { label: t('Choose'), act: () => tab.set('points') });
+  }
+
   /** The points that someone else has changed while they had unsaved changes here, which are shown. */
   get contested(): string[] {
-    return this.disputed.filter((id) => this.draft.isChanged(id));
+    return [...this.disputed.keys()].filter((id) => this.draft.isChanged(id));
   }
 
   /** Decides about the contested points: `theirs` replace the own ones, as a step that can be undone, or the own ones stay, to be saved. */
   settle(theirs: boolean): void {
     if (theirs) this.draft.takeSaved(this.contested);
-    this.disputed = [];
+    this.disputed = new Map();
     this.touch();
   }
 
-  /** Takes the unsaved changes of an earlier visit into the draft, as a step that can be undone. */
-  private bringBack(head: string): void {
+  /** Takes the unsaved changes of an earlier visit into the draft, as a step that can be undone. `isRead`: the server's points are known. */
+  private bringBack(head: string, isRead: boolean): void {
     const back = this.wayBack();
-    this.draft.restore(this.drafts.read(head, this.axes));
+    this.disputed = this.draft.restore(this.drafts.read(head, this.axes), isRead);
     this.opened = true;
     this.touch();
     const { changes } = this.draft;
     if (changes === 0) return;
+    if (this.contested.length > 0) return this.tellOfContested();
     this.studio.toasts.say(changes === 1 ? t('Your unsaved point is back.') : t('Your {changes} unsaved points are back.', { changes }), {
       label: t('Discard'),
       act: back,
@@ -427,7 +433,7 @@ export class PointsModel {
   private take(set: FeaturePointSet, etag: string | null, fresh = false): void {
     const placed = this.placedOf(set);
     this.fapu = set.fapu;
-    this.disputed = [];
+    this.disputed = new Map();
     if (fresh) this.draft.reset(placed);
     else this.draft.accept(placed);
     // With points beyond the quick set, or with proposals to review, the user needs the whole list.
@@ -469,8 +475,18 @@ export class PointsModel {
   }
 
   private touch(): void {
-    if (this.opened && this.model) this.drafts.keep(this.model.id, this.axes, this.draft.changed);
+    if (this.opened && this.model) this.drafts.keep(this.model.id, this.axes, this.keptChanges());
     this.changed.set(this.changed.value + 1);
+  }
+
+  /** What is contested stays so after a reload. */
+  private keptChanges(): PointChanges {
+    const changes = this.draft.changed;
+    for (const [id, over] of this.disputed) {
+      const change = changes.get(id);
+      if (change) changes.set(id, { ...change, over });
+    }
+    return changes;
   }
 }
 
