@@ -139,7 +139,7 @@ test('Coarse_Mouse_PointsLieWhereTheyArePut_AndTheFaceHasAVertexThere', async ()
   }
 
   const panel = page.locator('.points .panel-foot');
-  await panel.getByRole('button', { name: 'Parametrize' }).click();
+  await panel.getByRole('button', { name: 'Make it move (parametrize)' }).click();
   await studio.waitForState('parametrized');
   await page.locator('#tab-animate').click();
   await page.waitForFunction(() => (window as unknown as Inside).semblante.scene.rig !== null);

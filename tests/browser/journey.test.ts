@@ -113,7 +113,7 @@ describe('from a bare avatar to a talking face and a recording', () => {
       }
       await hand.press(button('Propose missing points'));
       await button('Confirm all').waitFor();
-      await hand.press(button('Parametrize'));
+      await hand.press(button('Make it move (parametrize)'));
       await studio.waitForState('parametrized');
       await studio.waitForStage('ready');
 

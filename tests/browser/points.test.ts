@@ -48,7 +48,7 @@ describe('feature points', () => {
     const { page } = studio;
     // What can do nothing yet says why, beside what helps.
     const foot = page.locator('.points .panel-foot');
-    expect(await foot.getByRole('button', { name: 'Parametrize' }).isDisabled()).toBe(true);
+    expect(await foot.getByRole('button', { name: 'Make it move (parametrize)' }).isDisabled()).toBe(true);
     await foot.getByText('A face needs feature points, and none is placed.').waitFor();
     for (const name of ['Fill the missing side by mirroring', 'Export points to a file'])
       expect(await page.getByRole('button', { name }).getAttribute('title'), name).toMatch(/No point is placed yet/);

@@ -63,7 +63,7 @@ async function bringToLife(studio: StudioPage, head: string, points: string): Pr
   expect(placed).toBeGreaterThanOrEqual(0);
   await page.getByRole('searchbox', { name: 'Search feature points' }).fill('');
 
-  await page.getByRole('button', { name: 'Parametrize' }).click();
+  await page.getByRole('button', { name: 'Make it move (parametrize)' }).click();
   await studio.waitForState('parametrized');
   await studio.waitForStage('ready');
   await page.locator('#tab-animate[aria-selected="true"]').waitFor();

@@ -151,6 +151,7 @@ function main(root: HTMLElement, session: Session | null, theme: HTMLElement): v
     if (persisted) return;
     speech.leave();
     streamSpeech.leave();
+    live.leave();
   });
   animate.element.prepend(noFaceNotice(studio), speak.element); // what everybody wants first of a head: that it talks
   animate.element.append(clip.element, new LevelsPanel(studio, fit, scene).element);

@@ -229,8 +229,8 @@ export class Api {
     return (await requestJson<NewToken>(`${this.base}/v1/tokens`, { method: 'POST', json })).value.secret;
   }
 
-  async deleteStream(id: string): Promise<void> {
-    await requestJson(`${this.base}/v1/streams/${segment(id)}`, { method: 'DELETE' });
+  async deleteStream(id: string, keepalive = false): Promise<void> {
+    await requestJson(`${this.base}/v1/streams/${segment(id)}`, { method: 'DELETE', keepalive });
   }
 
   /** Starts playing a performance document into a stream. */

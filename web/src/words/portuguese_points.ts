@@ -41,7 +41,7 @@ export const portuguesePoints = {
   'Save 1 change': 'Salvar 1 mudança',
   'Save {changes} changes': 'Salvar {changes} mudanças',
   'Parametrize again': 'Parametrizar de novo',
-  Parametrize: 'Parametrizar',
+  'Make it move (parametrize)': 'Faça-a se mover (parametrizar)',
   Cancel: 'Cancelar',
   'Smooth skin': 'Pele suave',
   'Weights fade out smoothly: looks best.': 'Os pesos diminuem suavemente: a melhor aparência.',

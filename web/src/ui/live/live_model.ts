@@ -28,6 +28,8 @@ export class LiveModel {
   /** Resolves when the followed stream is heard, or cannot be. */
   untilHeard = (): Promise<void> => Promise.resolve();
   private publisher: LivePublisher | null = null;
+  /** The streams that this page has created to play into. */
+  private readonly made = new Set<string>();
 
   constructor(
     private readonly studio: Studio,
@@ -91,8 +93,12 @@ export class LiveModel {
       const title = t('{name}, performing', { name: this.studio.selected.value?.name ?? t('Head') });
       const model = this.studio.selected.value?.id ?? null;
       const free = (stream: StreamInfo): boolean => stream.publishers === 0 && !stream.playing && stream.model === model;
-      id = this.ownStreams.find((stream) => stream.title === title && free(stream))?.id ?? (await this.create(title));
-      if (id === null) return null;
+      id = this.ownStreams.find((stream) => stream.title === title && free(stream))?.id ?? null;
+      if (id === null) {
+        id = await this.create(title);
+        if (id === null) return null;
+        this.made.add(id);
+      }
     }
     if (this.following.value === id && this.status.value.kind !== 'ended' && this.hasWantedSound) this.driver.byStream();
     else this.subscribe(id, this.titleOf(id));
@@ -136,6 +142,23 @@ export class LiveModel {
     if (this.sending.value === id) this.send(null);
     await this.studio.attempt(t('The stream was not deleted'), () => this.studio.api.deleteStream(id));
     await this.refresh();
+  }
+
+  /** Whether a stream ends with this page: one that it created to play into, which nobody else watches or feeds. A loop goes on. */
+  private endsWithPage({ id, subscribers, publishers, playing }: StreamInfo): boolean {
+    const own = this.following.value === id ? 1 : 0;
+    return this.made.has(id) && subscribers <= own && publishers === 0 && playing?.loop !== true;
+  }
+
+  /** Whether it is to be known who watches the streams: some may end with this page. */
+  get hasMade(): boolean {
+    return this.made.size > 0;
+  }
+
+  /** The page closes. */
+  leave(): void {
+    for (const stream of this.streams.value ?? [])
+      if (this.endsWithPage(stream)) void this.studio.api.deleteStream(stream.id, true).catch(() => undefined);
   }
 
   /** Starts (id) or stops (null) publishing the frame set with the sliders. */

@@ -18,7 +18,7 @@ export interface PolledParts {
   clip: ClipPanel;
 }
 
-/** Updates the displays that change with time, and polls heads, and while the Live tab is open streams and recordings. */
+/** Updates the displays that change with time, and polls heads, streams while the Live tab is open or one may end with the page, and recordings in that tab. */
 export function startPolling({ studio, scene, live, livePanel, overlay, recordings, performance, clip }: PolledParts): void {
   setInterval(() => {
     const player = scene.performer.value?.player ?? null;
@@ -30,8 +30,10 @@ export function startPolling({ studio, scene, live, livePanel, overlay, recordin
     clip.tick();
   }, 200);
   setInterval(() => {
-    if (studio.tab.value !== 'live' || document.visibilityState !== 'visible') return;
-    void live.refresh();
+    if (document.visibilityState !== 'visible') return;
+    const isOpen = studio.tab.value === 'live';
+    if (isOpen || live.hasMade) void live.refresh();
+    if (!isOpen) return;
     if (recordings.running.length === 0) void recordings.refresh();
   }, 3000);
   setInterval(() => {

@@ -63,7 +63,7 @@ export class ParametrizeBox {
     }
     this.go.disabled = busy || !usable || draft.points.size === 0;
     this.drawWhy(busy ? null : model);
-    setText(this.go, model?.state === 'parametrized' ? t('Parametrize again') : t('Parametrize'));
+    setText(this.go, model?.state === 'parametrized' ? t('Parametrize again') : t('Make it move (parametrize)'));
     replace(
       this.progress,
       activity
