@@ -51,6 +51,8 @@ import { RecordingsModel } from './ui/recordings/recordings_model.ts';
 import { RecordingsPanel } from './ui/recordings/recordings_panel.ts';
 import { messageOf } from './ui/shared/message_of.ts';
 import { saveFile } from './ui/shared/save_file.ts';
+import { scansBox } from './ui/scans/scans_box.ts';
+import { ScansModel } from './ui/scans/scans_model.ts';
 import { SceneView } from './ui/stage/scene.ts';
 import { letIn, signOutButton } from './ui/page/sign_in.ts';
 import { Shelf } from './ui/heads/shelf.ts';
@@ -120,6 +122,7 @@ function main(root: HTMLElement, session: Session | null, theme: HTMLElement): v
       new UnitsPanel(scene, points, studio, parametrizer).element,
       compare.element,
     ],
+    ownExpressions: scansBox(studio, new ScansModel(studio)),
     onFap: (fap, mirror) => influence.useFap(fap, mirror),
     onChange: () => {
       driver.byHand();

@@ -4,6 +4,7 @@ import { requestBlob, requestBytes, requestJson, type Answer } from './http.ts';
 import { mediaTypeOf } from './model_formats.ts';
 import type {
   AbsentFap,
+  ExtractionOptions,
   FapPlaying,
   FeaturePointsBody,
   FeaturePointsEdit,
@@ -37,6 +38,7 @@ import type {
   VoiceName,
   Voices,
   VersionInfo,
+  WornEdit,
 } from './types.ts';
 import { Turns } from './turns.ts';
 import { upload } from './upload.ts';
@@ -83,8 +85,29 @@ export class Api {
   }
 
   /** Returns the changed model and, if the axes changed, the job that imports its file again. */
-  async setFrame(id: string, frame: FrameWish): Promise<{ model: Model; job: Job | null }> {
-    const { value: model, location } = await this.patchModel(id, { frame });
+  setFrame(id: string, frame: FrameWish): Promise<{ model: Model; job: Job | null }> {
+    return this.patchAndJob(id, { frame });
+  }
+
+  /** Returns the changed model and, if it is parametrized, the job that makes its package again. */
+  wear(id: string, expressions: WornEdit): Promise<{ model: Model; job: Job | null }> {
+    return this.patchAndJob(id, { expressions });
+  }
+
+  /** Starts a job that takes a displacement set from a file with the mesh of a stored model in an expression. */
+  async createExpression(options: ExtractionOptions, expression: File): Promise<Job> {
+    const form = new FormData();
+    form.set('options', JSON.stringify(options));
+    form.set('expression', expression);
+    return (await requestJson<Job>(`${this.base}/v1/expressions`, { method: 'POST', body: form })).value;
+  }
+
+  async deleteExpression(id: string): Promise<void> {
+    await requestJson(`${this.base}/v1/expressions/${segment(id)}`, { method: 'DELETE' });
+  }
+
+  private async patchAndJob(id: string, edit: ModelEdit): Promise<{ model: Model; job: Job | null }> {
+    const { value: model, location } = await this.patchModel(id, edit);
     const job = location === null ? null : (await requestJson<Job>(`${this.base}${location}`)).value;
     return { model, job };
   }

@@ -23,6 +23,9 @@ export type Vector = Schemas['Vector'];
 export type Model = Schemas['Model'];
 export type ModelPage = JsonAnswer<'listModels', 200>;
 export type ModelEdit = Schemas['ModelEdit'];
+/** Visemes and expressions by name with the set that a face wears in their place; null: the library's. */
+export type WornEdit = NonNullable<ModelEdit['expressions']>;
+export type ExtractionOptions = Schemas['ExtractionOptions'];
 export type ModelAndJob = JsonAnswer<'createModel', 202>;
 export type ModelPart = Schemas['Part'];
 export type FacePackage = NonNullable<Model['package']>;
@@ -49,6 +52,8 @@ export type Job = Schemas['Job'];
 export type JobState = Job['state'];
 /** The result of a finished proposal job: the number of proposed points, and why others were not proposed. */
 export type ProposalsResult = Extract<NonNullable<Job['result']>, { proposed: number }>;
+/** The result of a finished extraction job: the set that was taken from an example. */
+export type ExtractionResult = Extract<NonNullable<Job['result']>, { expression: string }>;
 
 export type Speech = Schemas['Speech'];
 export type SpeechRequest = Schemas['SpeechRequest'];

@@ -37,6 +37,8 @@ export interface AnimatePanelOptions {
   exports: readonly HTMLElement[];
   /** What is seen on the face beside its picture: the controls of the influence view and of the units. */
   views: readonly HTMLElement[];
+  /** Where the expressions of this head are its own. */
+  ownExpressions: HTMLElement;
   /** Called when idle life is switched on or off. Fails if it cannot be played. */
   onIdle: (on: boolean) => Promise<void>;
   /** Called when the player chooses whether FAP 3 alone takes the lower lip along. */
@@ -135,6 +137,7 @@ export class AnimatePanel {
           h('span', { class: 'muted small' }, t('two at a time')),
         ),
         h('div', { class: 'feelings' }, ...this.makeFeelings()),
+        options.ownExpressions,
       ),
       h('section', {}, h('header', { class: 'section-head' }, h('h2', {}, t('Face parameters'))), this.faps.element),
       this.makeIdle(),

@@ -71,7 +71,7 @@ export class ClipPanel {
           label: t('Choose a .json or .fap file'),
           note: t('or drop it'),
           accept: '.json,.fap,application/json',
-          take: (file) => void this.takeFile(file),
+          take: ([file]) => void this.takeFile(file),
         }),
         exampleSelect((name, text) => void this.take(name, text)),
         h('button', { type: 'button', on: { click: () => void this.begin() } }, icon('plus', 15), t('New performance')),

@@ -78,6 +78,13 @@ export class Shelf {
     const draw = (): void => this.draw();
     studio.models.watch(draw);
     studio.selected.watch(draw);
+    let seen: string | undefined;
+    studio.selected.watch((model) => {
+      if (model?.id === seen) return;
+      seen = model?.id;
+      // The list may not be laid out yet.
+      requestAnimationFrame(() => this.list.querySelector('.selected')?.scrollIntoView({ block: 'nearest' }));
+    });
     studio.activities.watch(draw);
     studio.shelf.watch(draw);
   }

@@ -75,7 +75,7 @@ export class PerformancePanel {
           label: t('Choose a .json or .fap file'),
           note: t('or drop it'),
           accept: '.json,.fap,application/json',
-          take: (file) => void this.takeFile(file),
+          take: ([file]) => void this.takeFile(file),
         }),
         this.example,
       ),

@@ -6,15 +6,17 @@ export interface FileButtonOptions {
   note: string;
   /** The `accept` attribute of the file input. */
   accept: string;
-  take: (file: File) => void;
+  /** Whether several files may be chosen at once. */
+  multiple?: boolean;
+  take: (files: readonly [File, ...File[]]) => void;
 }
 
-/** A button that opens a file chooser for one file; ui/page/file_drop.ts handles dropped files. */
-export function chooseFile({ label, note, accept, take }: FileButtonOptions): HTMLElement {
-  const input = h('input', { type: 'file', accept, hidden: true, 'aria-label': label });
+/** A button that opens a file chooser; ui/page/file_drop.ts handles dropped files. */
+export function chooseFile({ label, note, accept, multiple = false, take }: FileButtonOptions): HTMLElement {
+  const input = h('input', { type: 'file', accept, multiple, hidden: true, 'aria-label': label });
   input.addEventListener('change', () => {
-    const file = input.files?.[0];
-    if (file) take(file);
+    const [first, ...others] = input.files ?? [];
+    if (first) take([first, ...others]);
     input.value = '';
   });
   return h(

@@ -2,7 +2,7 @@ import type { Api } from '../../net/api.ts';
 import { headUploads, type PathFile } from '../../net/head_files.ts';
 import { followJob } from '../../net/jobs.ts';
 import { ApiError, problemOf } from '../../net/problem.ts';
-import type { FrameWish, Job, Model, ParametrizationOptions, PartRole, Problem, ProposalsResult } from '../../net/types.ts';
+import type { ExtractionOptions, FrameWish, Job, Model, ParametrizationOptions, PartRole, Problem, ProposalsResult, WornEdit } from '../../net/types.ts';
 import { stageTitle } from './names.ts';
 import { Signal } from './signal.ts';
 import type { Toasts } from './toast.ts';
@@ -202,6 +202,27 @@ export class Studio {
     if (last.state === 'failed')
       throw new ApiError(last.problem ?? { type: 'about:blank', title: t('The proposals failed'), status: 500 });
     return last.state === 'done' && last.result !== null && 'proposed' in last.result ? last.result : null;
+  }
+
+  /** Takes a displacement set from a scan of the head. Resolves with its id, or null when cancelled; throws ApiError. */
+  async readExpression(model: Model, file: File, options: ExtractionOptions): Promise<string | null> {
+    const job = await this.api.createExpression({ ...options, model: model.id }, file);
+    const last = await this.follow(model.id, job, t('Reading {name}', { name: file.name }));
+    if (last.state === 'failed')
+      throw new ApiError(last.problem ?? { type: 'about:blank', title: t('The scan could not be read'), status: 500 });
+    return last.state === 'done' && last.result !== null && 'expression' in last.result ? last.result.expression : null;
+  }
+
+  /** Lets the head wear other visemes and expressions, with which its package is made again. */
+  wear(model: Model, expressions: WornEdit): Promise<boolean> {
+    return this.attempt(t('The expressions were not changed'), async () => {
+      const { model: now, job } = await this.api.wear(model.id, expressions);
+      this.replaceModel(now);
+      const last = job && (await this.follow(model.id, job, t('Parametrizing')));
+      await this.reload(model.id);
+      if (last?.state === 'failed')
+        throw new ApiError(last.problem ?? { type: 'about:blank', title: t('The parametrization failed'), status: 500 });
+    });
   }
 
   async reload(id: string): Promise<Model | null> {

@@ -94,7 +94,7 @@ export class SpeakPanel {
             label: t('Your own recording'),
             note: t('or drop it'),
             accept: ['audio/*', ...soundEndings].join(','),
-            take: (file) => this.takeRecording(file),
+            take: ([file]) => this.takeRecording(file),
           }),
     );
   }
