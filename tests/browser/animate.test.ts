@@ -1,6 +1,6 @@
 import { describe, expect, test } from 'vitest';
 import { eventually } from './support/patience.ts';
-import { StudioPage } from './support/studio_page.ts';
+import { phone, StudioPage } from './support/studio_page.ts';
 import { browser, server, useStudio } from './support/suite.ts';
 
 useStudio();
@@ -8,6 +8,13 @@ useStudio();
 interface Point {
   distanceTo(other: Point): number;
 }
+
+/** From the camera to what it looks at. */
+const distanceOf = ({ page }: StudioPage): Promise<number> =>
+  page.evaluate(() => {
+    const { stage } = (window as unknown as { semblante: { scene: { stage: { camera: { position: Point }; controls: { target: Point } } } } }).semblante.scene;
+    return stage.camera.position.distanceTo(stage.controls.target);
+  });
 
 describe('animate', () => {
   test('FaceParameters_Search_ShowsTheMatchingOnesAndLeavesTheRestAsItWas', async () => {
@@ -89,19 +96,33 @@ describe('animate', () => {
     const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { width: 1280, height: 720, coarse: true });
     const { page } = studio;
     await studio.waitForStage('ready');
-    const distance = (): Promise<number> =>
-      page.evaluate(() => {
-        const { stage } = (window as unknown as { semblante: { scene: { stage: { camera: { position: Point }; controls: { target: Point } } } } }).semblante.scene;
-        return stage.camera.position.distanceTo(stage.controls.target);
-      });
-    const before = await distance();
+    const before = await distanceOf(studio);
     const box = (await page.locator('canvas.canvas').boundingBox())!;
     await page.mouse.dblclick(box.x + box.width / 2, box.y + box.height / 2);
-    expect(await distance()).toBeLessThan(before * 0.6);
+    expect(await distanceOf(studio)).toBeLessThan(before * 0.6);
     // Beside the head there is nothing to go to; the whole face comes back by its key.
     await page.locator('canvas.canvas').press('f');
     await page.mouse.dblclick(box.x + 4, box.y + box.height / 2);
-    expect(await distance()).toBeCloseTo(before, 2);
+    expect(await distanceOf(studio)).toBeCloseTo(before, 2);
+    expect(studio.errors).toEqual([]);
+    await studio.close();
+  });
+
+  test('DoubleTap_OnATouchScreen_GoesNearer', async () => {
+    const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { ...phone, coarse: true });
+    const { page } = studio;
+    await studio.waitForStage('ready');
+    const before = await distanceOf(studio);
+    const box = (await page.locator('canvas.canvas').boundingBox())!;
+    const tap = (): Promise<void> => page.touchscreen.tap(box.x + box.width / 2, box.y + box.height / 2);
+    await tap();
+    await page.waitForTimeout(600); // two taps far apart in time are no double tap
+    await tap();
+    expect(await distanceOf(studio)).toBeCloseTo(before, 2);
+    await page.waitForTimeout(600);
+    await tap();
+    await tap();
+    await eventually('the camera is nearer', async () => (await distanceOf(studio)) < before * 0.6);
     expect(studio.errors).toEqual([]);
     await studio.close();
   });

@@ -14,6 +14,34 @@ test('Studio_ServerWithoutADemo_WaitsForNoStream', async () => {
   await studio.close();
 });
 
+test('Studio_ManyHeads_TheStepsStayInSight', async () => {
+  const studio = await StudioPage.open(browser, 'about:blank', { width: 1280, height: 720, coarse: true });
+  const { page } = studio;
+  await page.route('**/v1/models?**', async (route) => {
+    const answer = await route.fetch();
+    const list = (await answer.json()) as { models: { id: string; name: string }[] };
+    const [sample] = list.models;
+    list.models = [...Array.from({ length: 30 }, (_, i) => ({ ...sample!, id: `head${i}`, name: `Head ${i}` })), sample!];
+    await route.fulfill({ response: answer, json: list });
+  });
+  await page.goto(`${server.url}/#sample/animate`);
+  await studio.waitForStage('ready');
+  const bottom = async (selector: string): Promise<number> => {
+    const box = (await page.locator(selector).boundingBox())!;
+    return box.y + box.height;
+  };
+  expect(await bottom('.steps')).toBeLessThanOrEqual(720);
+  expect(await bottom('.shelf-panel > .drop')).toBeLessThanOrEqual(720);
+  // The open head is the last of the list: it is scrolled to.
+  await page.waitForFunction(() => {
+    const [list, open] = ['.heads', '.head.selected'].map((selector) => document.querySelector(selector)!.getBoundingClientRect());
+    return open!.top >= list!.top - 1 && open!.bottom <= list!.bottom + 1;
+  });
+  await studio.keep('many-heads');
+  expect(studio.errors).toEqual([]);
+  await studio.close();
+});
+
 test('Studio_EmptyServer_OffersTheSampleAndLeadsToItsPlay', async () => {
   await fetch(`${server.url}/v1/models/sample`, { method: 'DELETE' });
   const studio = await StudioPage.open(browser, server.url, { width: 1280, height: 720, coarse: true });

@@ -3,6 +3,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { afterAll, describe, expect, test } from 'vitest';
 import { root } from './support/paths.ts';
+import { eventually } from './support/patience.ts';
 import { StudioPage } from './support/studio_page.ts';
 import { browser, server, useStudio } from './support/suite.ts';
 
@@ -46,7 +47,15 @@ describe('performance', () => {
     await page.locator('.performance').getByRole('button', { name: 'Stop' }).click();
     await page.locator('.performance').getByRole('button', { name: 'Stop' }).waitFor({ state: 'detached' });
     await studio.pictureUnlike(smiling, faceAlone, 0.5);
+    // The stream was made for this page, and ends with it.
+    const performing = async (): Promise<number> => {
+      const { streams } = (await (await fetch(`${server.url}/v1/streams`)).json()) as { streams: { title: string }[] };
+      return streams.filter(({ title }) => title.endsWith('performing')).length;
+    };
+    expect(await performing()).toBe(1);
     expect(studio.errors).toEqual([]);
+    await page.goto('about:blank');
+    await eventually('its stream has ended', async () => (await performing()) === 0);
     await studio.close();
   });
 

@@ -6,7 +6,7 @@ import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 import { quickSet } from '@protocol/generated/mpeg4.ts';
 import { sampleHead, samplePoints } from './support/paths.ts';
 import { startServer, type RunningServer } from './support/server.ts';
-import { launch, StudioPage, type Inside } from './support/studio_page.ts';
+import { launch, phone, StudioPage, type Inside } from './support/studio_page.ts';
 
 interface Points {
   points: Record<string, { vertex: number; position: [number, number, number]; proposed?: boolean }>;
@@ -43,6 +43,22 @@ async function openNew(name: string): Promise<StudioPage> {
 }
 
 describe('feature points', () => {
+  test('Points_OnAPhone_TheButtonThatBeginsIsNotCovered', async () => {
+    const studio = await StudioPage.open(browser, server.url, { ...phone, coarse: true });
+    const { page } = studio;
+    await studio.waitForStage('ready');
+    await studio.drop(sampleHead, 'phone.glb');
+    await studio.waitForState('ready');
+    await studio.waitForStage('ready');
+    await page.locator('#tab-points').click();
+    const start = (await page.getByRole('button', { name: 'Start', exact: true }).boundingBox())!;
+    const foot = (await page.locator('.points .panel-foot').boundingBox())!;
+    await studio.keep('points-phone-start');
+    expect(start.y + start.height).toBeLessThanOrEqual(foot.y);
+    expect(studio.errors).toEqual([]);
+    await studio.close();
+  });
+
   test('Points_NoneYet_PanelLeadsThroughThemByPointerAndKeyboard', async () => {
     const studio = await openNew('guided.glb');
     const { page } = studio;
