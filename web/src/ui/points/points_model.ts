@@ -1,12 +1,15 @@
 import { featurePoints } from '@protocol/generated/mpeg4.ts';
 import { middleOf } from '../../face/mirror_points.ts';
-import { PointDraft, proposalBody, type PlacedPoint, type PointChanges, type PointOrNone } from '../../face/point_draft.ts';
-import { leastKnownPoints, quickSet } from '../../face/quick_set.ts';
+import { PointDraft, type PlacedPoint, type PointChanges, type PointOrNone } from '../../face/point_draft.ts';
+import { leastKnownPoints } from '../../face/quick_set.ts';
 import { ApiError, featurePointOf, fieldProblems, problemOf } from '../../net/problem.ts';
 import type { FeaturePointsBody, FeaturePointSet, Model } from '../../net/types.ts';
+import { saveFile } from '../shared/save_file.ts';
 import { Signal } from '../shared/signal.ts';
 import type { DraftStore } from './draft_store.ts';
 import type { MirrorLock } from './mirror_lock.ts';
+import { isQuick, nextPoint, nextProposed, quickLeft } from './point_order.ts';
+import { placedPoints, pointsFile, type PositionOf } from './point_set.ts';
 import type { Studio } from '../shared/studio.ts';
 import { t } from '../../words/words.ts';
 
@@ -40,7 +43,7 @@ export class PointsModel {
   /** Whether the draft is the open head's, so that its changes are worth keeping. */
   opened = false;
   /** The position of a vertex of the file, model units; used for points that the server returns without a position. */
-  positionOf: (vertex: number) => readonly [number, number, number] | null = () => null;
+  positionOf: PositionOf = () => null;
 
   /** The place on the head for point `id` at the image of another, `middle` being the middle of the head; null: none is near. */
   imageOf: (id: string, of: PlacedPoint, middle: number) => PlacedPoint | null = () => null;
@@ -94,7 +97,7 @@ export class PointsModel {
       const { value, etag } = await this.studio.api.getFeaturePoints(head);
       // What this page has saved meanwhile is as new.
       if (this.model?.id !== head || etag === known || this.etag !== known) return;
-      const { changed, contested } = this.draft.rebase(this.placedOf(value));
+      const { changed, contested } = this.draft.rebase(placedPoints(value, this.positionOf));
       const unitsChanged = JSON.stringify(this.fapu) !== JSON.stringify(value.fapu);
       this.fapu = value.fapu;
       this.etag = etag;
@@ -210,9 +213,8 @@ export class PointsModel {
     this.guided.set(on);
   }
 
-  /** The number of points of the quick set that are not placed. */
   get quickLeft(): number {
-    return quickSet.filter(({ id }) => !this.draft.points.has(id)).length;
+    return quickLeft(this.draft.points);
   }
 
   /** The first point to place, also when a later one is chosen. */
@@ -246,10 +248,7 @@ export class PointsModel {
   }
 
   chooseNextProposed(): void {
-    this.chooseAfter(
-      featurePoints.map(({ id }) => id),
-      (id) => this.draft.points.get(id)?.proposal !== undefined,
-    );
+    this.chosen.set(nextProposed(this.draft.points, this.chosen.value));
   }
 
   /** Removes a point, and the one that moves with it. */
@@ -275,17 +274,9 @@ export class PointsModel {
     this.touch();
   }
 
-  /** Selects the next unplaced point in the current order or, when all are placed, the next proposed one. */
+  /** Selects the next point to place in the current order or, when all are placed, the next proposed one. */
   chooseNext(): void {
-    const order = (this.guided.value ? quickSet : featurePoints).map(({ id }) => id);
-    if (order.every((id) => this.draft.points.has(id))) this.chooseNextProposed();
-    else this.chooseAfter(order, (id) => !this.draft.points.has(id));
-  }
-
-  private chooseAfter(order: readonly string[], wanted: (id: string) => boolean): void {
-    const start = order.indexOf(this.chosen.value ?? '');
-    const rest = [...order.slice(start + 1), ...order.slice(0, start + 1)];
-    this.chosen.set(rest.find(wanted) ?? null);
+    this.chosen.set(nextPoint(this.draft.points, this.chosen.value, this.guided.value));
   }
 
   /** Saves the draft and starts a job that proposes the missing points. */
@@ -361,19 +352,8 @@ export class PointsModel {
   }
 
   exportFile(): void {
-    const points: Record<string, object> = {};
-    for (const { id } of featurePoints) {
-      const point = this.draft.points.get(id);
-      if (!point) continue;
-      const { vertex, position, proposal } = point;
-      points[id] = { vertex, position, ...(proposal ? proposalBody(proposal) : {}) };
-    }
-    const text = JSON.stringify({ head: this.model?.name ?? '', count: this.draft.points.size, points }, null, 1);
-    const link = document.createElement('a');
-    link.href = URL.createObjectURL(new Blob([text], { type: 'application/json' }));
-    link.download = `${(this.model?.name ?? 'head').replaceAll(/[^\p{L}\p{N}._-]+/gu, '-')}.fps.json`;
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+    const name = this.model?.name ?? '';
+    saveFile(pointsFile(name, this.draft.points), `${(name || 'head').replaceAll(/[^\p{L}\p{N}._-]+/gu, '-')}.fps.json`);
   }
 
   /** Shows the errors of a refused request beside the points that they name. */
@@ -431,31 +411,15 @@ export class PointsModel {
 
   /** `fresh`: of a head that has just been opened; otherwise what was done before can be undone. */
   private take(set: FeaturePointSet, etag: string | null, fresh = false): void {
-    const placed = this.placedOf(set);
+    const placed = placedPoints(set, this.positionOf);
     this.fapu = set.fapu;
     this.disputed = new Map();
     if (fresh) this.draft.reset(placed);
     else this.draft.accept(placed);
     // With points beyond the quick set, or with proposals to review, the user needs the whole list.
-    if (!this.guidedByUser) {
-      const quick = new Set(quickSet.map(({ id }) => id));
-      this.guided.set(placed.every(([id, point]) => quick.has(id) && !point.proposal));
-    }
+    if (!this.guidedByUser) this.guided.set(placed.every(([id, point]) => isQuick(id) && !point.proposal));
     this.etag = etag;
     this.touch();
-  }
-
-  private placedOf(set: FeaturePointSet): [string, PlacedPoint][] {
-    const placed: [string, PlacedPoint][] = [];
-    for (const [id, value] of Object.entries(set.points)) {
-      const { vertex } = value;
-      const position = value.position ?? (vertex === null ? null : this.positionOf(vertex));
-      if (!position) continue;
-      const { method = null, confidence = null, expected_error: expectedError = null, remark } = value;
-      const proposal = { method, confidence, expectedError, ...(remark === undefined ? {} : { remark }) };
-      placed.push([id, { vertex, position, ...(value.proposed ? { proposal } : {}) }]);
-    }
-    return placed;
   }
 
   private forgive(id: string): void {
