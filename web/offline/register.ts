@@ -7,7 +7,9 @@ export function keepOffline(): void {
   const start = async (): Promise<void> => {
     await navigator.serviceWorker.register(new URL('worker.js', location.href));
     const { active } = await navigator.serviceWorker.ready;
-    const loaded = performance.getEntriesByType('resource').map(({ name }) => name);
+    // An upload is listed as well, by an address that cannot be read; it was answered by another status.
+    const resources = performance.getEntriesByType('resource') as PerformanceResourceTiming[];
+    const loaded = resources.filter(({ responseStatus }) => responseStatus === 200 || !responseStatus).map(({ name }) => name);
     const named = [...document.querySelectorAll<HTMLLinkElement>('link[href]')].map(({ href }) => href);
     active?.postMessage({ keep: [location.href, ...named, ...loaded] });
   };

@@ -50,12 +50,13 @@ export function keepAnswers(worker: ServiceWorkerGlobalScope, keeping: Keeping):
     return Promise.race(answers).catch(() => (page ? kept : marked(kept)));
   };
 
-  const askAgain = async (change: URL): Promise<void> => {
+  const askAgain = async (change: URL, isDeletion: boolean): Promise<void> => {
     await new Promise((wake) => setTimeout(wake, changeTime));
     const isOld = keeping.madeOldBy(change);
     const cache = await caches.open(keeping.cacheName);
     for (const { url } of await cache.keys())
-      if (isOld(new URL(url))) await keep(url, await fetch(url)).catch(() => undefined);
+      if (isDeletion && `${new URL(url).pathname}/`.startsWith(`${change.pathname}/`)) await cache.delete(url);
+      else if (isOld(new URL(url))) await keep(url, await fetch(url)).catch(() => undefined);
   };
 
   worker.addEventListener('install', () => void worker.skipWaiting());
@@ -64,7 +65,7 @@ export function keepAnswers(worker: ServiceWorkerGlobalScope, keeping: Keeping):
     const { request } = event;
     const key = keyOf(request);
     if (key !== null) event.respondWith(answer(request, key));
-    else if (request.method !== 'GET') event.waitUntil(askAgain(new URL(request.url)));
+    else if (request.method !== 'GET') event.waitUntil(askAgain(new URL(request.url), request.method === 'DELETE'));
   });
   worker.addEventListener('message', (event: ExtendableMessageEvent) => {
     const { keep: addresses, forget } = (event.data ?? {}) as { keep?: string[]; forget?: boolean };

@@ -158,9 +158,9 @@ export class Shelf {
             ? h('span', { class: 'muted small' }, activity.title)
             : h(
                 'span',
-                { class: 'muted small' },
+                { class: 'muted small head-about' },
                 h('span', { class: `state state-${model.state}` }, stateWords[model.state]),
-                facts ? [' · ', h('span', { class: 'head-facts' }, facts)] : null,
+                facts ? [' ', h('span', { class: 'head-facts' }, facts)] : null,
               ),
         ),
       ),
