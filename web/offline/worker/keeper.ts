@@ -65,7 +65,11 @@ export function keepAnswers(worker: ServiceWorkerGlobalScope, keeping: Keeping):
     const { request } = event;
     const key = keyOf(request);
     if (key !== null) event.respondWith(answer(request, key));
-    else if (request.method !== 'GET') event.waitUntil(askAgain(new URL(request.url), request.method === 'DELETE'));
+    else if (request.method !== 'GET') {
+      // What a page sends while it closes is lost with the page unless the worker sends it.
+      if (request.keepalive) event.respondWith(fetch(request));
+      event.waitUntil(askAgain(new URL(request.url), request.method === 'DELETE'));
+    }
   });
   worker.addEventListener('message', (event: ExtendableMessageEvent) => {
     const { keep: addresses, forget } = (event.data ?? {}) as { keep?: string[]; forget?: boolean };
