@@ -1,6 +1,6 @@
 import { describe, expect, test } from 'vitest';
 import { eventually } from './support/patience.ts';
-import { phone, StudioPage } from './support/studio_page.ts';
+import { StudioPage } from './support/studio_page.ts';
 import { browser, server, useStudio } from './support/suite.ts';
 
 useStudio();
@@ -104,25 +104,6 @@ describe('animate', () => {
     await page.locator('canvas.canvas').press('f');
     await page.mouse.dblclick(box.x + 4, box.y + box.height / 2);
     expect(await distanceOf(studio)).toBeCloseTo(before, 2);
-    expect(studio.errors).toEqual([]);
-    await studio.close();
-  });
-
-  test('DoubleTap_OnATouchScreen_GoesNearer', async () => {
-    const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { ...phone, coarse: true });
-    const { page } = studio;
-    await studio.waitForStage('ready');
-    const before = await distanceOf(studio);
-    const box = (await page.locator('canvas.canvas').boundingBox())!;
-    const tap = (): Promise<void> => page.touchscreen.tap(box.x + box.width / 2, box.y + box.height / 2);
-    await tap();
-    await page.waitForTimeout(600); // two taps far apart in time are no double tap
-    await tap();
-    expect(await distanceOf(studio)).toBeCloseTo(before, 2);
-    await page.waitForTimeout(600);
-    await tap();
-    await tap();
-    await eventually('the camera is nearer', async () => (await distanceOf(studio)) < before * 0.6);
     expect(studio.errors).toEqual([]);
     await studio.close();
   });

@@ -1,9 +1,8 @@
 import type { Browser } from 'playwright-core';
 import { afterAll, beforeAll, expect, test } from 'vitest';
-import { sampleHead } from './support/paths.ts';
 import { eventually } from './support/patience.ts';
 import { startServer, type RunningServer } from './support/server.ts';
-import { launch, StudioPage, type Inside } from './support/studio_page.ts';
+import { launch, StudioPage } from './support/studio_page.ts';
 
 let server: RunningServer;
 let browser: Browser;
@@ -63,31 +62,6 @@ test('Studio_WithoutAServer_OpensWithTheHeadsSeenAndSaysWhatDoesNotWork', async 
   await again.page.evaluate(() => window.dispatchEvent(new Event('online')));
   await again.page.locator('.offline-note').waitFor({ state: 'hidden' });
   await again.close();
-});
-
-/** Requests for models that the server refused. */
-const refused = async (): Promise<string[]> => {
-  const metrics = await (await fetch(`${server.url}/metrics`)).text();
-  return metrics.split('\n').filter((line) => /^semblante_http_requests_total\{.*"\/v1\/models.*status="4xx"/.test(line));
-};
-
-test('Studio_WhatIsKept_LeavesOutUploadsAndDeletedHeads', async () => {
-  const context = await browser.newContext({ viewport: { width: 1280, height: 720 }, reducedMotion: 'reduce' });
-  const studio = await StudioPage.openIn(context, server.url);
-  const { page } = studio;
-  await studio.waitForStage('ready');
-  await studio.drop(sampleHead, 'soon gone.glb'); // before the service worker is told what was loaded
-  await studio.waitForState('ready');
-  await studio.waitForStage('ready');
-  const id = await page.evaluate(() => (window as unknown as Inside).semblante.studio.selected.value!.id);
-  const ofHead = async (): Promise<string[]> => (await kept(studio)).filter((path) => path.includes(id));
-  await eventually('its points are kept', async () => (await ofHead()).some((path) => path.endsWith('/feature-points')));
-  await page.evaluate(async (head) => {
-    await fetch(`/v1/models/${head}`, { method: 'DELETE' });
-  }, id);
-  await eventually('nothing of the deleted head is kept', async () => (await ofHead()).length === 0);
-  expect(await refused()).toEqual([]);
-  await studio.close();
 });
 
 test('Studio_CanBeInstalled_ItsWorkerIsAskedForAnewEachTime', async () => {
