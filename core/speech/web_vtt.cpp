@@ -61,15 +61,17 @@ std::string web_vtt(const Utterance& utterance, std::string_view text) {
       for (std::size_t i = first; i < last; ++i) {
         const std::size_t begin = characters.byte_of(words[i].range.first);
         const std::size_t own_end = characters.byte_of(words[i].range.first + words[i].range.count);
-        // With the signs that follow the word.
+        // With the signs that follow the word; of a number that is said in parts ("3,5") no part twice.
         const bool is_last_in_cue = i + 1 == last;
         const bool is_very_last = i + 1 == words.size();
         std::size_t until = is_very_last ? text.size() : characters.byte_of(words[i + 1].range.first);
-        if (until < own_end) until = own_end;
-        const std::string word = plain(text.substr(begin, until - begin));
+        if (until <= begin) until = own_end;
+        const auto part = text.substr(begin, until - begin);
+        const std::string word = plain(part);
+        const bool is_apart = !part.empty() && plain(part.substr(part.size() - 1)).empty();
         if (i > first && words[i].time > words[first].time && words[i].time < end)
           vtt += "<" + time_text(words[i].time) + ">";
-        vtt += word + (is_last_in_cue ? "\n" : " ");
+        vtt += word + (is_last_in_cue ? "\n" : is_apart ? " " : "");
       }
     }
     first = last;

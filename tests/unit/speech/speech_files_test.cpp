@@ -9,6 +9,15 @@
 namespace semblante {
 namespace {
 
+/// Voices say a number in parts, of which the first may claim all of it.
+TEST(WebVtt, NumberThatIsSaidInParts_IsWrittenOnce) {
+  Utterance said;
+  said.duration = 2000;
+  said.words = {{100, {0, 3}}, {500, {1, 2}}, {900, {4, 6}}};
+  EXPECT_EQ(web_vtt(said, "3,5 metros"),
+            "WEBVTT\n\n00:00:00.100 --> 00:00:01.900\n3<00:00:00.500>,5 <00:00:00.900>metros\n");
+}
+
 TEST(WebVtt, HasEachWordWithItsTime_ASentenceACue_AndNoMarkup) {
   Utterance said;
   said.duration = 3000;
