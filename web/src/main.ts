@@ -77,9 +77,9 @@ import { language, t } from './words/words.ts';
 import { Toasts } from './ui/shared/toast.ts';
 
 /** Composes the page; the only module that knows all others. */
-function main(root: HTMLElement, session: Session | null, theme: HTMLElement): void {
+function main(root: HTMLElement, base: string, session: Session | null, theme: HTMLElement): void {
   const toasts = new Toasts();
-  const api = new Api();
+  const api = new Api(base);
   const extras = h('div', { class: 'row' }, signOutButton(api.base, session), keySheetButton(), languageSelect(), theme);
   const canvas = h('canvas', { class: 'canvas' });
 
@@ -263,9 +263,11 @@ const root = document.querySelector<HTMLElement>('#studio');
 document.documentElement.lang = language;
 if (root) {
   const theme = themeButton(); // the sign-in has its colours too
-  letIn('', root)
+  // The server's own path: behind a proxy the studio may lie below a path.
+  const base = new URL('.', document.baseURI).pathname.replace(/\/$/, '');
+  letIn(base, root)
     .then((session) => {
-      main(root, session, theme);
+      main(root, base, session, theme);
     })
     .catch((error: unknown) => {
       root.replaceChildren(
