@@ -63,7 +63,7 @@ describe('StreamClient', () => {
     FakeSocket.last.accept();
     expect(FakeSocket.last.protocols).toEqual(['semblante.v1']);
     expect(FakeSocket.last.sent).toEqual([
-      { type: 'hello', version: 1, role: 'subscribe', resume: null, take_over: false, sound: false, text: false },
+      { type: 'hello', version: 1, role: 'subscribe', resume: null, take_over: false, sound: false, text: false, captions: false },
     ]);
     FakeSocket.last.give(header);
     expect(stream.state).toBe('open');

@@ -100,7 +100,7 @@ describe('decodeMessage', () => {
   it('Decode_BytesOfALaterVersion_AreSkipped', () => {
     for (const { binary, json } of faceless) {
       const appends = json['type'] === 'header' || json['type'] === 'hello'; // a field of their own
-      const unknown = appends ? '000000010203' : '010203';
+      const unknown = appends ? '00000000010203' : '010203';
       expect(decodeMessage(fromHex(binary + unknown))).toEqual(decodeMessage(fromHex(binary)));
     }
   });
