@@ -22,7 +22,7 @@ struct Frame {
 Frame ear_frame() {
   Frame f;
   f.origin = {6.8, -1.25, -0.65};
-  f.up = glm::normalize(Vec3(0.08, 1.0, -0.20));
+  f.up = glm::normalize(Vec3(0.17, 1.0, -0.20));
   const Vec3 back = glm::normalize(Vec3(0.16, 0.0, -1.0));
   f.out = glm::normalize(glm::cross(back, f.up));
   if (f.out.x < 0.0) f.out = -f.out;

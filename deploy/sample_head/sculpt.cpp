@@ -31,7 +31,7 @@ double join(double a, double b, double k) {
 /// `a` minus `b`, with a rounded rim of size k.
 double carve(double a, double b, double k) { return -join(-a, b, k); }
 
-double bridge_distance(const Vec3& q) { return capsule(q, {0.0, 0.9, 7.85}, {0.0, -3.1, 10.05}, 0.84, 0.74); }
+double bridge_distance(const Vec3& q) { return capsule(q, {0.0, 0.9, 7.75}, {0.0, -3.1, 10.0}, 0.98, 0.84); }
 
 double nose_end_distance(const Vec3& q) {
   double d = ellipsoid(q, {0.0, -3.62, 10.36}, {0.98, 0.82, 0.94});                // tip
