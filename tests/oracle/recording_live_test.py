@@ -10,6 +10,7 @@ import subprocess
 import sys
 import tempfile
 import threading
+import time
 import urllib.error
 import urllib.request
 
@@ -83,6 +84,13 @@ def since(first, timed):
     return [(time - first, packet) for time, packet in timed]
 
 
+def eventually(holds):
+    end = time.monotonic() + PATIENCE
+    while not holds() and time.monotonic() < end:
+        time.sleep(0.05)
+    return holds()
+
+
 def heard_while(port, start):
     """What a listener of a new stream hears of what `start` plays into it."""
     stream = json.loads(ask(port, "POST", "/v1/streams", {}))["id"]
@@ -90,6 +98,8 @@ def heard_while(port, start):
     listener.start()
     result = start(stream)
     assert listener.still.wait(PATIENCE), "it is not heard to its end"
+    # Its last packets come after its last frame.
+    eventually(lambda: json.loads(ask(port, "GET", f"/v1/streams/{stream}")).get("playing") is None)
     return stream, listener, result
 
 
@@ -108,26 +118,29 @@ def test(port):
     first = frames[0][0]
     assert header["sound"] == listener.header["sound"], header
     assert first == listener.frames[0], (first, listener.frames[0])
-    heard = [(time, packet) for time, packet in listener.sound if time >= first]  # a late player may leave out its first frame
-    assert sound == heard and len(sound) > 20, (len(sound), len(heard))
-    times = [time - first for time, _ in sound]
+
+    def heard():
+        return [(at, packet) for at, packet in listener.sound if at >= first]  # a late player may leave out its first frame
+
+    assert eventually(lambda: heard() == sound) and len(sound) > 20, (len(sound), len(heard()))
+    times = [at - first for at, _ in sound]
     assert max(b - a for a, b in zip(times, times[1:])) >= 300, f"the pause is none: {times}"
 
     # The export has each packet at its time, also of a part.
     for begin in (0, 700):
         exported = read_ogg_opus(ask(port, "GET", f"{content}?format=opus&from={begin}"))
         packets = {packet: ms for ms, packet in exported}
-        wanted = [(time - first - begin, packet) for time, packet in sound if time - first >= begin]
+        wanted = [(at - first - begin, packet) for at, packet in sound if at - first >= begin]
         assert wanted
-        for time, packet in wanted:
-            assert packet in packets and abs(packets[packet] - time) <= 2.5, (begin, time, packets.get(packet))
+        for at, packet in wanted:
+            assert packet in packets and abs(packets[packet] - at) <= 2.5, (begin, at, packets.get(packet))
 
     # Played into another stream it is heard at the same distances from its frames.
     _, again, _ = heard_while(port, lambda other: ask(port, "POST", f"/v1/streams/{other}/plays", {"recording": recording}))
     replayed, recorded = since(again.frames[0], again.sound), since(first, sound)
     assert len(replayed) > 20  # a late player leaves packets out
-    for time, packet in replayed:
-        assert any(packet == other and abs(time - at) <= 1 for at, other in recorded), (time, replayed, recorded)
+    for moment, packet in replayed:
+        assert any(packet == other and abs(moment - at) <= 1 for at, other in recorded), (moment, replayed, recorded)
 
     # A recording without sound says so.
     silent = json.loads(ask(port, "POST", f"/v1/streams/{stream}/recordings", {}))["id"]
