@@ -169,7 +169,7 @@ describe('studio', () => {
     const { page } = studio;
     await studio.waitForStage('ready');
     expect((await page.locator('#file').getAttribute('accept'))?.split(',')).toContain('.vrm');
-    const upload = page.waitForRequest((request) => request.url().includes('/v1/models?'));
+    const upload = page.waitForRequest((request) => request.method() === 'POST' && request.url().includes('/v1/models?'));
     await studio.drop(sampleHead, 'avatar.vrm');
     expect((await upload).headers()['content-type']).toBe('model/gltf-binary');
     await studio.waitForState('ready');
