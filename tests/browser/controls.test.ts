@@ -83,7 +83,7 @@ describe('controls', () => {
     const { page } = studio;
     await studio.waitForStage('ready');
     // Of the whole page: head and shelf are 8 of them.
-    const most = { fit: 40, points: 32, animate: 64, live: 42 };
+    const most = { fit: 40, points: 32, animate: 65, live: 42 };
     for (const tab of ['fit', 'points', 'animate', 'live'] as const) {
       await page.locator(`#tab-${tab}`).click();
       if (tab === 'points') await page.locator('.points .section-head .segments button').last().click();
