@@ -13,9 +13,8 @@ namespace {
 
 constexpr std::uint8_t full = 255;
 
-// Of the smoothing.
-constexpr int greatest_steps = 100;
-constexpr int patience = 10;  ///< steps without less skin turned over
+constexpr int greatest_steps = 100;  ///< of the smoothing
+constexpr int patience = 10;         ///< steps without less skin turned over
 
 /// A turn of the whole head: its axis, and sine and cosine of half its angle, 0.6 rad.
 struct Turn {
@@ -69,7 +68,7 @@ class NeckShares {
     for (const std::uint8_t t : turn) share_.push_back(static_cast<double>(t) / full);
   }
 
-  /// The area that turns over in all turns together, and the vertices at it.
+  /// The sum over all turns of the area that turns over. `at_fold`: the vertices of those triangles.
   double area_turned_over(std::vector<bool>& at_fold) const {
     at_fold.assign(share_.size(), false);
     double area = 0.0;

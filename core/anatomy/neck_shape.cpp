@@ -10,7 +10,7 @@ namespace {
 // Lengths in units of the height from the chin to the eyes. Human proportions; the shoulders are measured.
 constexpr double step_down = 0.05;             ///< between the sections of the neck
 constexpr double longest_neck = 1.6;           ///< the narrowest section is no farther below the chin
-constexpr double shortest_neck = 0.3;          ///< a cut nearer to the chin: the head turns as a whole
+constexpr double shortest_neck = 0.3;          ///< if the neck is cut nearer to the chin, the head turns as a whole
 constexpr double shoulder_widening = 1.6;      ///< shoulders begin where the neck is wider than its least by this
 constexpr double joint_from_shoulders = 0.75;  ///< farther from the neck's joint no shoulders begin
 

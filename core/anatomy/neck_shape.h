@@ -19,7 +19,7 @@ inline constexpr double shoulders_within = 3.0;
 inline constexpr double border_height = 0.04;
 /// Above this height below the chin, in the same units, a section of the neck would cut the jaw.
 inline constexpr double first_section = 0.15;
-/// Of the width of the neck: a border that is less wide is a hole, not its end.
+/// A border narrower than this share of the neck's width is a hole in the skin, not the end of the neck.
 inline constexpr double spanning = 0.5;
 
 /// A line where the skin ends below the jaw: of a cut neck, of a bust, at a collar.

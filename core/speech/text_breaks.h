@@ -7,8 +7,8 @@ namespace semblante {
 
 /// A part of a text that is said alone has at least so many letters.
 inline constexpr std::size_t least_part_letters = 40;
-/// A part with more is cut at the next word or sign, and one with `most_part_letters` anywhere, so that a text without
-/// sentences is not made whole before it is heard.
+/// A part without an end of a sentence is cut between words, or after a sign, from `long_part_letters` on, and anywhere
+/// at `most_part_letters`, so that a text without sentences begins before all of it is made.
 inline constexpr std::size_t long_part_letters = 320, most_part_letters = 480;
 
 /// As how many letters the character that a text begins with counts, by the time in which it is said: 1; a character of

@@ -61,7 +61,8 @@ std::string web_vtt(const Utterance& utterance, std::string_view text) {
       for (std::size_t i = first; i < last; ++i) {
         const std::size_t begin = characters.byte_of(words[i].range.first);
         const std::size_t own_end = characters.byte_of(words[i].range.first + words[i].range.count);
-        // With the signs that follow the word; of a number that is said in parts ("3,5") no part twice.
+        // The word with the signs after it, up to the next word, also where that begins within this one: a number that
+        // is said in parts ("3", ",5"). A voice's words have no such parts any more (whole_words.h).
         const bool is_last_in_cue = i + 1 == last;
         const bool is_very_last = i + 1 == words.size();
         std::size_t until = is_very_last ? text.size() : characters.byte_of(words[i + 1].range.first);

@@ -25,7 +25,7 @@ class DamagedDatabase : public StoreError {
   using StoreError::StoreError;
 };
 
-/// Another program held the database for longer than is waited for.
+/// The database was locked by another program until the wait for it timed out.
 class BusyDatabase : public StoreError {
  public:
   using StoreError::StoreError;

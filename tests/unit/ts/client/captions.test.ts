@@ -90,7 +90,7 @@ describe('StreamCaptions', () => {
     expect(at(9_999)).toBe(null);
     expect(at(10_000)).toBe('Good day.');
     expect(at(10_900)).toBe('Good day.');
-    expect(at(11_000)).toBe('How are you?'); // while the first would still stay
+    expect(at(11_000)).toBe('How are you?'); // replaces the first cue before its time is over
     expect(at(13_000)).toBe(null);
     expect(told.map((cue) => cue?.text ?? null)).toEqual(['Good day.', 'How are you?', null]);
     captions.stop();
