@@ -12,6 +12,7 @@
 #include "server/api/access.h"
 #include "server/api/export_slots.h"
 #include "server/api/key_locks.h"
+#include "server/api/known_voices.h"
 #include "server/api/security.h"
 #include "server/api/speakers.h"
 #include "server/http/application.h"
@@ -74,6 +75,7 @@ struct Context {
   std::shared_ptr<KeyLocks> quota_turns = nullptr;             ///< by token; made by Api
   std::shared_ptr<ExportSlots> exports = nullptr;              ///< made by Api, unless it is given
   std::shared_ptr<ExportSlots> voices = nullptr;               ///< made by Api
+  std::shared_ptr<KnownVoices> known_voices = nullptr;         ///< made by Api
   std::shared_ptr<Speakers> speakers = nullptr;                ///< made by Api
 };
 

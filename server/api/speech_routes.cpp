@@ -319,9 +319,14 @@ http::Response create_speech(Context& context, http::Request& request) {
 
 http::Response list_voices(Context& context, http::Request&) {
   if (context.config.voice.command.empty()) return json_response(200, answer::Voices{});
-  const auto slot = take_voice_slot(context);
-  const auto names = voice::list_voices(context.config.voice);
-  if (!names) refuse("voice-failed", "the voice: " + names.error().message);
+  auto names = context.known_voices->at(KnownVoices::Clock::now());
+  if (!names) {
+    const auto slot = take_voice_slot(context);
+    auto listed = voice::list_voices(context.config.voice);
+    if (!listed) refuse("voice-failed", "the voice: " + listed.error().message);
+    context.known_voices->keep(*listed, KnownVoices::Clock::now());
+    names = *std::move(listed);
+  }
   answer::Voices page;
   for (const auto& name : *names)
     page.voices.push_back(
