@@ -4,6 +4,7 @@ import { join } from 'node:path';
 import type { Browser } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, expect, test } from 'vitest';
 import { vowel } from '../unit/ts/support/voice.ts';
+import { eventually } from './support/patience.ts';
 import { startServer, type RunningServer } from './support/server.ts';
 import { launch, StudioPage } from './support/studio_page.ts';
 
@@ -134,20 +135,22 @@ test('Voice_IsSentOnlyWhenItIsChosen_AndARecordingKeepsIt', async () => {
   await voice.check();
   await page.getByText('can hear you').waitFor();
   await studio.keep('voice-sent');
-  const { id, sound } = await recorded(6);
-  expect(sound).toBe(true);
-  const opus = Buffer.from(await (await fetch(`${server.url}/v1/recordings/${id as string}/content?format=opus`)).arrayBuffer());
-  const { seconds, loud } = await page.evaluate(async (base64) => {
-    const content = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
-    const samples = (await new AudioContext({ sampleRate: 48_000 }).decodeAudioData(content.buffer)).getChannelData(0);
-    const parts: number[] = [];
-    for (let n = 0; n + 2400 <= samples.length; n += 2400) parts.push(Math.hypot(...samples.subarray(n, n + 2400)) / Math.sqrt(2400));
-    return { seconds: samples.length / 48_000, loud: parts.filter((level) => level > 0.02).length / parts.length };
-  }, opus.toString('base64'));
-  console.info(`recorded voice: ${seconds.toFixed(2)} s, loud for ${loud.toFixed(2)} of it`);
-  expect(seconds).toBeGreaterThan(2);
-  expect(loud).toBeGreaterThan(0.25); // it says "a" half of the time
-  expect(loud).toBeLessThan(0.75);
+  // It says "a" half of the time; a machine that is too busy for its microphone hears less.
+  await eventually('a recording has the voice', async () => {
+    const { id, sound } = await recorded(6);
+    expect(sound).toBe(true);
+    const opus = Buffer.from(await (await fetch(`${server.url}/v1/recordings/${id as string}/content?format=opus`)).arrayBuffer());
+    const { seconds, loud } = await page.evaluate(async (base64) => {
+      const content = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+      const samples = (await new AudioContext({ sampleRate: 48_000 }).decodeAudioData(content.buffer)).getChannelData(0);
+      const parts: number[] = [];
+      for (let n = 0; n + 2400 <= samples.length; n += 2400) parts.push(Math.hypot(...samples.subarray(n, n + 2400)) / Math.sqrt(2400));
+      return { seconds: samples.length / 48_000, loud: parts.filter((level) => level > 0.02).length / parts.length };
+    }, opus.toString('base64'));
+    console.info(`recorded voice: ${seconds.toFixed(2)} s, loud for ${loud.toFixed(2)} of it`);
+    expect(loud).toBeLessThan(0.75);
+    return seconds > 2 && loud > 0.25;
+  });
 
   // Whoever begins again is not heard unasked.
   await page.getByRole('button', { name: 'Stop the microphone' }).click();
