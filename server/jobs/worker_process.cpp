@@ -23,12 +23,15 @@ namespace {
 constexpr std::size_t max_line_bytes = 4U << 20U;
 constexpr std::size_t last_words_bytes = 600;
 constexpr int poll_milliseconds = 50;
+constexpr int shortage_milliseconds = 200;  ///< until the next try
 constexpr std::chrono::seconds term_to_kill{2};
 
 class Pipe {
  public:
   Pipe() {
-    if (::pipe2(ends_.data(), O_CLOEXEC) != 0) ends_ = {-1, -1};
+    if (::pipe2(ends_.data(), O_CLOEXEC) == 0) return;
+    error_ = errno;
+    ends_ = {-1, -1};
   }
   ~Pipe() {
     close_read();
@@ -36,6 +39,8 @@ class Pipe {
   }
   Pipe(const Pipe&) = delete;
   Pipe& operator=(const Pipe&) = delete;
+  /// Why it could not be made, an errno, or 0.
+  [[nodiscard]] int error() const { return error_; }
   [[nodiscard]] int read_end() const { return ends_[0]; }
   [[nodiscard]] int write_end() const { return ends_[1]; }
   void close_read() { close_one(ends_[0]); }
@@ -47,6 +52,14 @@ class Pipe {
     end = -1;
   }
   std::array<int, 2> ends_{-1, -1};
+  int error_ = 0;
+};
+
+/// The pipes of a worker, and its process once it is started.
+struct Worker {
+  Pipe in;
+  Pipe out;
+  pid_t pid = 0;
 };
 
 /// posix_spawn's two option objects, freed together.
@@ -65,15 +78,15 @@ struct SpawnOptions {
   SpawnOptions& operator=(const SpawnOptions&) = delete;
 };
 
-Result<pid_t> spawn(const std::vector<std::string>& arguments, const Pipe& in, const Pipe& out,
-                    const std::filesystem::path& error_file) {
+/// An errno, or 0.
+int spawn(const std::vector<std::string>& arguments, const std::filesystem::path& error_file, Worker& worker) {
   SpawnOptions options;
-  posix_spawn_file_actions_adddup2(&options.files, in.read_end(), STDIN_FILENO);
-  posix_spawn_file_actions_adddup2(&options.files, out.write_end(), STDOUT_FILENO);
+  posix_spawn_file_actions_adddup2(&options.files, worker.in.read_end(), STDIN_FILENO);
+  posix_spawn_file_actions_adddup2(&options.files, worker.out.write_end(), STDOUT_FILENO);
+  // A worker must not inherit the server's sockets and files, and has room for a descriptor when the server has none.
+  posix_spawn_file_actions_addclosefrom_np(&options.files, STDERR_FILENO + 1);
   posix_spawn_file_actions_addopen(&options.files, STDERR_FILENO, error_file.c_str(), O_WRONLY | O_CREAT | O_TRUNC,
                                    0600);
-  // A worker must not inherit the server's sockets and files.
-  posix_spawn_file_actions_addclosefrom_np(&options.files, STDERR_FILENO + 1);
   posix_spawnattr_setflags(&options.attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
   sigset_t none;
   sigemptyset(&none);
@@ -87,12 +100,12 @@ Result<pid_t> spawn(const std::vector<std::string>& arguments, const Pipe& in, c
   argv.reserve(arguments.size() + 1);
   for (const auto& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
-  pid_t pid = 0;
-  const int code = posix_spawn(&pid, arguments[0].c_str(), &options.files, &options.attributes, argv.data(), environ);
-  store::throw_if_disk_full(error_file, code);
-  if (code != 0)
-    return Error{ErrorCode::io, arguments[0], "cannot start a worker: " + std::string(std::strerror(code))};
-  return pid;
+  return posix_spawn(&worker.pid, arguments[0].c_str(), &options.files, &options.attributes, argv.data(), environ);
+}
+
+/// Whether others have what is missing, and may give it back: descriptors, processes, memory.
+bool is_shortage(int error_number) {
+  return error_number == EMFILE || error_number == ENFILE || error_number == EAGAIN || error_number == ENOMEM;
 }
 
 /// Holds back SIGPIPE of this thread for as long as it lives, and takes away what came meanwhile.
@@ -148,22 +161,35 @@ Result<WorkerExit> run_worker_process(const std::vector<std::string>& arguments,
                                       const std::function<void(std::string_view line)>& on_line,
                                       const std::function<Wish()>& poll_wish,
                                       const std::optional<WorkerLimits>& limits) {
-  Pipe in;
-  Pipe out;
-  if (in.read_end() < 0 || out.read_end() < 0)
-    return Error{ErrorCode::io, "", "cannot make a pipe: " + std::string(std::strerror(errno))};
-  auto started = spawn(arguments, in, out, error_file);
-  if (!started) return started.error();
-  const pid_t pid = *started;
+  using Clock = std::chrono::steady_clock;
+  const auto begin = Clock::now();
+  WorkerExit exit;
+  std::optional<Worker> worker;
+  while (true) {
+    worker.emplace();
+    const int pipes = worker->in.error() != 0 ? worker->in.error() : worker->out.error();
+    const int fault = pipes != 0 ? pipes : spawn(arguments, error_file, *worker);
+    if (fault == 0) break;
+    worker.reset();  // its pipe may be what others wait for
+    store::throw_if_disk_full(error_file, fault);
+    if (!is_shortage(fault) || Clock::now() - begin > wall_limit)
+      return Error{ErrorCode::io, arguments[0], "cannot start a worker: " + std::string(std::strerror(fault))};
+    const auto wish = poll_wish();
+    if (wish != Wish::go_on) {
+      exit.kind = wish == Wish::stop ? WorkerExit::Kind::stopped : WorkerExit::Kind::cancelled;
+      return exit;
+    }
+    ::poll(nullptr, 0, shortage_milliseconds);
+  }
+  Pipe& in = worker->in;
+  Pipe& out = worker->out;
+  const pid_t pid = worker->pid;
   end_before_the_server(pid);
   if (limits) limit_process(pid, *limits);
   in.close_read();
   out.close_write();
   ::fcntl(in.write_end(), F_SETFL, O_NONBLOCK);
 
-  using Clock = std::chrono::steady_clock;
-  const auto begin = Clock::now();
-  WorkerExit exit;
   bool ended_by_us = false;
   Clock::time_point kill_at = Clock::time_point::max();
   std::string pending;

@@ -34,7 +34,8 @@ enum class Wish { go_on, cancel, stop };
 /// Runs `arguments[0]` with these arguments, `input` on its standard input, and passes on each line of its standard
 /// output as it arrives. Blocks until the process has ended. Cancel is SIGTERM, and SIGKILL two seconds later; stop is
 /// SIGKILL immediately. The process has its own group, so that a Ctrl-C at the terminal reaches only the server.
-/// `limits`: of a program that does not limit itself, in force before it gets its input. Error `io` when it cannot be
+/// `limits`: of a program that does not limit itself, in force before it gets its input. A process that cannot be
+/// started for want of descriptors, processes or memory is tried again until `wall_limit`. Error `io` when it cannot be
 /// started.
 Result<WorkerExit> run_worker_process(const std::vector<std::string>& arguments, std::string_view input,
                                       const std::filesystem::path& error_file, std::chrono::seconds wall_limit,

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "core/types/printable.h"
+#include "server/jobs/error_file.h"
 #include "server/jobs/worker_process.h"
 
 namespace semblante::voice {
@@ -16,28 +17,6 @@ namespace {
 constexpr const char* usual_name = "semblante-voice-espeak";
 constexpr const char* sound_reader_name = "semblante-sound";
 constexpr const char* recognizer_name = "semblante-recognizer-pocketsphinx";
-
-/// What the voice writes to standard error, for as long as it runs.
-class ErrorFile {
- public:
-  explicit ErrorFile(const std::filesystem::path& folder) {
-    std::string name =
-        ((folder.empty() ? std::filesystem::temp_directory_path() : folder) / "semblante-voice-XXXXXX").string();
-    const int file = ::mkstemp(name.data());
-    if (file < 0) return;
-    ::close(file);
-    path_ = name;
-  }
-  ~ErrorFile() {
-    if (!path_.empty()) ::unlink(path_.c_str());
-  }
-  ErrorFile(const ErrorFile&) = delete;
-  ErrorFile& operator=(const ErrorFile&) = delete;
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 std::string with_last_words(const std::string& message, const std::string& words) {
   const auto last = words.substr(words.rfind('\n') == std::string::npos ? 0 : words.rfind('\n') + 1);
@@ -49,9 +28,7 @@ bool is_missing(const VoiceProgram& program) { return program.command.empty() ||
 /// Has the program answer to its end. `ended`: it was started and ended by itself, well or not, within its time.
 Result<VoiceAnswer> ask(const VoiceProgram& program, std::string_view input, const std::function<bool()>& wanted = {},
                         bool* ended = nullptr) {
-  const ErrorFile errors(program.temporary);
-  if (errors.path().empty()) return Error{ErrorCode::io, "", "cannot make a temporary file"};
-
+  const jobs::ErrorFile errors(program.temporary);
   jobs::WorkerLimits limits;
   limits.memory_bytes = program.memory_bytes;
   limits.cpu_seconds = program.cpu_seconds;

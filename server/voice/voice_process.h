@@ -32,7 +32,8 @@ VoiceProgram recognizer_at(const std::string& path);
 /// Starts the voice, with its limits in force before it gets the request, and reads its answer. A voice that breaks the
 /// protocol is killed at the first wrong line. Blocks until the process has ended. Errors: those of check() and
 /// VoiceAnswer; `io`: it cannot be started, crashed, or reached a limit, with the end of what it wrote to standard
-/// error; `cancelled`: `wanted`, asked a few times per second, was false, and the voice was killed.
+/// error; `cancelled`: `wanted`, asked a few times per second, was false, and the voice was killed. Throws
+/// store::StoreError when its temporary file cannot be made.
 Result<Utterance> speak(const VoiceProgram& program, const VoiceRequest& request,
                         const std::function<bool()>& wanted = {});
 

@@ -2,8 +2,10 @@
 
 #include <csignal>
 #include <cstdlib>
+#include <optional>
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include "tests/support/wait.h"
 
@@ -34,6 +36,45 @@ TEST_F(WorkerProcessTest, Missing_CannotBeStarted) {
   EXPECT_FALSE(run_worker_process(
       {"/absent"}, "", folder_ / "errors", std::chrono::seconds(5), [](std::string_view) {},
       [] { return Wish::go_on; }));
+}
+
+/// No descriptor is free while it lives.
+class NoDescriptors {
+ public:
+  NoDescriptors() {
+    ::getrlimit(RLIMIT_NOFILE, &before_);
+    const rlimit none{0, before_.rlim_max};
+    ::setrlimit(RLIMIT_NOFILE, &none);
+  }
+  ~NoDescriptors() { ::setrlimit(RLIMIT_NOFILE, &before_); }
+  NoDescriptors(const NoDescriptors&) = delete;
+  NoDescriptors& operator=(const NoDescriptors&) = delete;
+
+ private:
+  rlimit before_{};
+};
+
+TEST_F(WorkerProcessTest, WithoutDescriptors_IsStartedOnceThereAreSome) {
+  std::optional<NoDescriptors> none(std::in_place);
+  int polls = 0;
+  const auto exit = run_worker_process(
+      {"/bin/sh", "-c", "exit 3"}, "", folder_ / "errors", testing::patience, [](std::string_view) {},
+      [&] {
+        if (++polls == 2) none.reset();
+        return Wish::go_on;
+      });
+  ASSERT_TRUE(exit) << exit.error().message;
+  EXPECT_EQ(exit->code, 3);
+}
+
+TEST_F(WorkerProcessTest, WithoutDescriptors_CanBeStopped_AndEndsAtTheLimit) {
+  const NoDescriptors none;
+  const auto stopped = run("exit 0", Wish::stop);
+  ASSERT_TRUE(stopped);
+  EXPECT_EQ(stopped->kind, WorkerExit::Kind::stopped);
+  const auto late = run("exit 0", Wish::go_on, std::chrono::seconds(0));
+  ASSERT_FALSE(late);
+  EXPECT_NE(late.error().message.find("Too many open files"), std::string::npos) << late.error().message;
 }
 
 TEST_F(WorkerProcessTest, Lines_ComeWholeAndInOrder) {

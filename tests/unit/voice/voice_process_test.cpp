@@ -9,6 +9,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "server/store/store_error.h"
+
 namespace semblante::voice {
 namespace {
 
@@ -60,6 +62,12 @@ TEST(Voice, LimitsHoldBeforeItReads) {
   auto busy = shell("while :; do :; done");
   busy.cpu_seconds = 1;
   EXPECT_NE(speak(busy, asking("a")).error().message.find("signal"), std::string::npos);
+}
+
+TEST(Voice, FolderOfTemporaryFilesThatCannotBeWritten_IsAFaultOfTheStorage) {
+  auto program = shell("cat");
+  program.temporary = "/absent";
+  EXPECT_THROW(static_cast<void>(speak(program, asking("a"))), store::StoreError);
 }
 
 TEST(Voice, ListsItsNames_OrSaysThatItHasNone) {
