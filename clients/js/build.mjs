@@ -54,16 +54,6 @@ await build({
       },
     },
     {
-      // The names of feature points, 0.7 kB compressed, are for people who place them; nothing in the package shows one.
-      name: 'points-without-names',
-      setup({ onLoad }) {
-        onLoad({ filter: /generated\/mpeg4\.ts$/ }, ({ path }) => ({
-          contents: readFileSync(path, 'utf8').replace(/^(  \{"id":"[\d.]+",)"name":"[^"]*"/gm, '$1"name":""'),
-          loader: 'ts',
-        }));
-      },
-    },
-    {
       // Shader text reaches the GPU without comments and indentation.
       name: 'shader-text',
       setup({ onLoad }) {

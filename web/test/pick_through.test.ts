@@ -1,5 +1,5 @@
 import { describe, expect, test } from 'vitest';
-import { featurePoints } from '@protocol/generated/mpeg4.ts';
+import { featurePointNames, featurePoints } from '@protocol/generated/mpeg4.ts';
 import { pickThrough, rolesOfPoint, type Meeting } from '../src/view/pick_through.ts';
 
 const met = (distance: number, role: Meeting['role'], outside = true): Meeting => ({ distance, role, outside });
@@ -31,7 +31,8 @@ describe('picking', () => {
   test('RolesOfPoint_OfTheStandard_AreTonguesTeethEyesAndSkin', () => {
     const by = Object.fromEntries(featurePoints.map(({ id }) => [id, rolesOfPoint(id)[0]]));
     expect(featurePoints.filter(({ id }) => by[id] === 'tongue')).toHaveLength(4);
-    for (const { id, name } of featurePoints) {
+    for (const [index, { id }] of featurePoints.entries()) {
+      const name = featurePointNames[index]!;
       const teeth = /teeth|tooth/i.test(name);
       expect(teeth, `${id} ${name}`).toBe(by[id] === 'upper_teeth' || by[id] === 'lower_teeth');
       if (teeth) expect(by[id], `${id} ${name}`).toBe(/lower/i.test(name) ? 'lower_teeth' : 'upper_teeth');

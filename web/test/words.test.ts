@@ -2,7 +2,7 @@ import { readdirSync, readFileSync } from 'node:fs';
 import { join, relative } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import ts from 'typescript';
-import { expressions, faps, featurePoints } from '@protocol/generated/mpeg4.ts';
+import { expressions, faps, featurePointNames } from '@protocol/generated/mpeg4.ts';
 import { expect, test } from 'vitest';
 import { capital, fapTitle } from '../src/ui/shared/names.ts';
 import { portuguese } from '../src/words/portuguese.ts';
@@ -90,7 +90,7 @@ test('Words_Translation_FillsInTheSameValues', () => {
 
 test('Words_NamesOfTheStandard_AllHaveATranslation', () => {
   const names = [
-    ...featurePoints.map(({ name }) => name),
+    ...featurePointNames,
     ...faps.map(({ name, group }) => fapTitle(name, group)),
     ...expressions.slice(1).flatMap(({ name, description }) => [capital(name), description]),
   ];

@@ -223,7 +223,6 @@ export interface Fap {
 
 export interface FeaturePoint {
   readonly id: string;
-  readonly name: string;
   readonly side: Side;
   /** id of the point on the other side; its own in the middle */
   readonly mirror: string;
@@ -303,7 +302,16 @@ export interface Expression {
   out << "/** faps[n - 1] is FAP n. */\n";
   list("Fap", "faps", faps);
   out << "/** In the order of the standard: the index is the dense feature point index of the formats. */\n";
-  list("FeaturePoint", "featurePoints", data.feature_points["feature_points"]);
+  json points = json::array();
+  json names = json::array();
+  for (json point : data.feature_points["feature_points"]) {
+    names.push_back(point["name"]);
+    point.erase("name");
+    points.push_back(point);
+  }
+  list("FeaturePoint", "featurePoints", points);
+  out << "/** Of featurePoints, at the same index: for people who place them. */\n";
+  list("string", "featurePointNames", names);
   out << "/** The points to mark first, in this order: the others are proposed from them. */\n";
   list("string", "quickSet", data.feature_points["quick_set"]);
   list("Fapu", "fapus", fapus);

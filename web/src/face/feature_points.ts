@@ -1,10 +1,14 @@
-import { featurePoints, type FeaturePoint } from '@protocol/generated/mpeg4.ts';
+import { featurePointNames, featurePoints, type FeaturePoint } from '@protocol/generated/mpeg4.ts';
 import { nameOf, t } from '../words/words.ts';
+
+export interface NamedPoint extends FeaturePoint {
+  readonly name: string;
+}
 
 export interface PointGroup {
   number: number;
   name: string;
-  points: readonly FeaturePoint[];
+  points: readonly NamedPoint[];
 }
 
 const names: Record<number, string> = {
@@ -23,7 +27,7 @@ const names: Record<number, string> = {
 export const groupOf = (id: string): number => Number(id.split('.')[0]);
 
 /** The 84 feature points, named in the language of the page. */
-const named = featurePoints.map((point) => ({ ...point, name: nameOf(point.name) }));
+const named: readonly NamedPoint[] = featurePoints.map((point, index) => ({ ...point, name: nameOf(featurePointNames[index]!) }));
 
 /** The 84 feature points by group, in the standard's order. */
 export const pointGroups: readonly PointGroup[] = Object.keys(names).map((key) => {
@@ -31,5 +35,5 @@ export const pointGroups: readonly PointGroup[] = Object.keys(names).map((key) =
   return { number, name: names[number]!, points: named.filter((point) => groupOf(point.id) === number) };
 });
 
-const byId = new Map<string, FeaturePoint>(named.map((point) => [point.id, point]));
-export const pointById = (id: string): FeaturePoint | undefined => byId.get(id);
+const byId = new Map(named.map((point) => [point.id, point]));
+export const pointById = (id: string): NamedPoint | undefined => byId.get(id);

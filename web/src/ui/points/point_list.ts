@@ -1,5 +1,4 @@
-import type { FeaturePoint } from '@protocol/generated/mpeg4.ts';
-import { pointById, pointGroups } from '../../face/feature_points.ts';
+import { pointById, pointGroups, type NamedPoint } from '../../face/feature_points.ts';
 import { quickSet } from '../../face/quick_set.ts';
 import { h, redraw, replace } from '../shared/dom.ts';
 import { icon } from '../shared/icons.ts';
@@ -74,7 +73,7 @@ export class PointList {
     const words = this.words.value.trim().toLowerCase();
     const filter = this.filter.value as Filter;
     const { draft } = this.points;
-    const show = (point: FeaturePoint): boolean =>
+    const show = (point: NamedPoint): boolean =>
       (filter === 'all' ||
         (filter === 'open' ? !draft.points.has(point.id) : draft.points.get(point.id)?.proposal !== undefined)) &&
       (words === '' ||
@@ -108,7 +107,7 @@ export class PointList {
     replace(this.element, groups.some((group) => group !== null) ? groups : h('p', { class: 'empty' }, empty[filter]));
   }
 
-  private row(point: FeaturePoint): HTMLElement {
+  private row(point: NamedPoint): HTMLElement {
     const { draft, problems, chosen } = this.points;
     const place = draft.points.get(point.id);
     const reasons = problems.get(point.id);
