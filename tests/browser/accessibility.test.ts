@@ -6,6 +6,7 @@ import { root } from './support/paths.ts';
 import { startServer } from './support/server.ts';
 import { StudioPage } from './support/studio_page.ts';
 import { browser, server, useStudio } from './support/suite.ts';
+import { everyVariant } from './support/variants.ts';
 
 useStudio({ demo: false });
 beforeAll(async () => {
@@ -36,17 +37,20 @@ const unfold = ({ page }: StudioPage): Promise<void> =>
 
 interface Look {
   name: string;
+  /** Looked at only with `everyVariant`. */
+  extra?: true;
   options: BrowserContextOptions;
 }
 
 const wide = { viewport: { width: 1440, height: 900 } };
 const narrow = { viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true };
-const looks: Look[] = [
+const everyLook: Look[] = [
   { name: 'wide light', options: { ...wide, colorScheme: 'light' } },
-  { name: 'wide dark', options: { ...wide, colorScheme: 'dark', locale: 'pt-BR' } },
-  { name: 'narrow light', options: { ...narrow, colorScheme: 'light', locale: 'pt-BR' } },
-  { name: 'narrow dark', options: { ...narrow, colorScheme: 'dark' } },
+  { name: 'wide dark', extra: true, options: { ...wide, colorScheme: 'dark', locale: 'pt-BR' } },
+  { name: 'narrow light', extra: true, options: { ...narrow, colorScheme: 'light' } },
+  { name: 'narrow dark', options: { ...narrow, colorScheme: 'dark', locale: 'pt-BR' } },
 ];
+const looks = everyLook.filter(({ extra }) => everyVariant || !extra);
 
 async function open({ options }: Look, at: string, allowed?: RegExp): Promise<StudioPage> {
   const context = await browser.newContext({ reducedMotion: 'reduce', deviceScaleFactor: 0.5, ...options });
