@@ -328,7 +328,6 @@ class Reader {
     frame.present.set(2);
   }
 
-  /// Sorts frames by number, starting from 0, without duplicates.
   /// By number; of frames with the same number the last one stays.
   static void sort_frames(std::vector<FapFileFrame>& frames) {
     std::vector<std::uint64_t> order(frames.size());  // number, then place in the file
@@ -350,6 +349,7 @@ class Reader {
     frames = std::move(sorted);
   }
 
+  /// Sorts frames by number, starting from 0, without duplicates.
   void order_frames() {
     auto& frames = reading_.file.frames;
     for (std::size_t i = 1; i < frames.size(); ++i) {

@@ -64,9 +64,14 @@ def wheel_name(library):
     return f"{facts['name']}-{facts['version']}-py3-none-{platform}"
 
 
+def source_files(folder):
+    """Modules, and the mark that their types are declared (PEP 561)."""
+    return sorted(path for path in (here / folder).rglob("*") if path.suffix == ".py" or path.name == "py.typed")
+
+
 def package_files(library):
     """(name in the wheel, bytes) of what is installed."""
-    for path in sorted((here / "semblante").rglob("*.py")):
+    for path in source_files("semblante"):
         yield str(path.relative_to(here)), path.read_bytes()
     if library:
         yield "semblante/libsemblante.so", library.read_bytes()
@@ -106,7 +111,7 @@ def build_sdist(sdist_directory, config_settings=None):
     stem = f"{facts['name']}-{facts['version']}"
     files = [here / "pyproject.toml", here / "README.md"]
     for folder in ("semblante", "build_backend", "examples"):
-        files += sorted((here / folder).rglob("*.py"))
+        files += source_files(folder)
     tar_bytes = io.BytesIO()
     with tarfile.open(fileobj=tar_bytes, mode="w") as archive:
         for name, content in [("PKG-INFO", metadata().encode())] + [(str(f.relative_to(here)), f.read_bytes()) for f in files]:

@@ -10,7 +10,7 @@
         draw(head.positions(), head.triangles)
 """
 
-from ._library import Frame, Heard, Pose, TimedFrame
+from ._structs import Frame, Heard, Pose, TimedFrame
 from .bridges import ARKIT_NAMES, OCULUS_NAMES, from_arkit, from_oculus, to_arkit, to_oculus
 from .errors import SemblanteError
 from .head import Head, frame

@@ -6,6 +6,7 @@ import ctypes
 import ctypes.util
 import os
 import pathlib
+from typing import Any, Dict, List, Tuple
 from ctypes import POINTER, c_char_p, c_double, c_float, c_size_t, c_uint8, c_uint32, c_uint64, c_void_p
 
 from ._structs import (Clock, Error, Event, Face, Frame, HeadOptions, Header, Heard, ListenerOptions, Moment, Package,
@@ -14,7 +15,7 @@ from ._structs import (Clock, Error, Event, Face, Frame, HeadOptions, Header, He
 VERSION = 0x000200  # SEMBLANTE_SDK_VERSION that the declarations were written for
 
 
-def _find():
+def _find() -> str:
     """The library named by SEMBLANTE_LIBRARY, else the one inside this package, else the one of the system."""
     named = os.environ.get("SEMBLANTE_LIBRARY")
     if named:
@@ -28,13 +29,13 @@ def _find():
     raise ImportError("libsemblante.so was not found: install it, or name it by the environment variable SEMBLANTE_LIBRARY")
 
 
-def _describe(frame):
+def _describe(frame: Frame) -> str:
     faps = {n: round(level, 3) for n, level in enumerate(frame.fap) if n >= 3 and level != 0}
     return (f"Frame(viseme={frame.viseme1},{frame.viseme2},{frame.viseme_blend} expression={frame.expression1},"
             f"{frame.intensity1},{frame.expression2},{frame.intensity2} faps={faps})")
 
 
-Frame.__repr__ = _describe
+setattr(Frame, "__repr__", _describe)
 
 _result = ctypes.c_int  # semblante_result
 _handle = c_void_p
@@ -45,7 +46,7 @@ _timed = POINTER(TimedFrame)
 _count = POINTER(c_uint32)
 _floats = c_void_p  # addresses of arrays are passed as numbers
 
-functions = {  # name: (result, arguments)
+functions: Dict[str, Tuple[Any, List[Any]]] = {  # name: (result, arguments)
     "semblante_sdk_version": (c_uint32, []),
     "semblante_result_name": (c_char_p, [_result]),
     "semblante_head_create": (_result, [POINTER(Package), POINTER(HeadOptions), _made, _error]),
@@ -131,7 +132,7 @@ functions = {  # name: (result, arguments)
 }
 
 
-def _load():
+def _load() -> ctypes.CDLL:
     library = ctypes.CDLL(_find())
     for name, (result, arguments) in functions.items():
         function = getattr(library, name)

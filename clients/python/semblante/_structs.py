@@ -4,12 +4,13 @@
 
 import ctypes
 from ctypes import POINTER, c_char, c_char_p, c_double, c_float, c_size_t, c_uint8, c_uint32, c_uint64
+from typing import Any
 
 
 class Sized(ctypes.Structure):
     """A struct that begins with its own size."""
 
-    def __init__(self, **members):
+    def __init__(self, **members: Any) -> None:
         super().__init__(size=ctypes.sizeof(type(self)), **members)
 
 

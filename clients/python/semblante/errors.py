@@ -1,20 +1,22 @@
 """Errors of the library as exceptions."""
 
 import ctypes
+from typing import Any, Callable, ClassVar, Optional, TypeVar
 
-from ._library import Error, library
+from ._library import library
+from ._structs import Error
 
 
 class SemblanteError(Exception):
     """`code`: the name of the result, such as "malformed"; `where`: the member or byte at fault, may be empty."""
 
-    def __init__(self, code, where, message):
+    def __init__(self, code: str, where: str, message: str) -> None:
         super().__init__(": ".join(part for part in (where, message or code) if part))
         self.code = code
         self.where = where
 
 
-def check(result, error=None):
+def check(result: int, error: Optional[Error] = None) -> None:
     """Raises SemblanteError unless `result` is OK. `error`: the struct that the function has filled."""
     if result == 0:
         return
@@ -24,7 +26,7 @@ def check(result, error=None):
     raise SemblanteError(code, error.where.decode("utf-8", "replace"), error.message.decode("utf-8", "replace"))
 
 
-def make(function, *arguments):
+def make(function: Callable[..., int], *arguments: Any) -> ctypes.c_void_p:
     """Calls a function `..._create(arguments..., handle, error)` and returns the handle."""
     handle = ctypes.c_void_p()
     error = Error()
@@ -32,24 +34,28 @@ def make(function, *arguments):
     return handle
 
 
+_Self = TypeVar("_Self", bound="Owner")
+
+
 class Owner:
     """Owns a handle of the library and destroys it, at the latest when the object is collected."""
 
-    _destroy = None
+    _destroy: ClassVar[Callable[[ctypes.c_void_p], None]]
 
-    def __init__(self, handle):
-        self._handle = handle
+    def __init__(self, handle: ctypes.c_void_p) -> None:
+        self._handle: Optional[ctypes.c_void_p] = handle
 
-    def close(self):
+    def close(self) -> None:
         """Frees the memory. The object must not be used afterwards."""
         handle, self._handle = getattr(self, "_handle", None), None
         if handle:
             type(self)._destroy(handle)
 
-    __del__ = close
+    def __del__(self) -> None:
+        self.close()
 
-    def __enter__(self):
+    def __enter__(self: _Self) -> _Self:
         return self
 
-    def __exit__(self, *_):
+    def __exit__(self, *_: object) -> None:
         self.close()

@@ -2,11 +2,14 @@
 
 import json
 import os
+import ssl
 import time
 import urllib.error
 import urllib.parse
 import urllib.request
+from typing import Any, Iterator, List, Optional
 
+from ._structs import Event
 from .errors import SemblanteError
 from .head import Head
 from .player import Player
@@ -17,25 +20,27 @@ _largest_part = 256 << 20
 _largest_problem = 64 << 10
 
 
-def now():
+def now() -> float:
     """ms of a steady clock."""
     return time.monotonic() * 1000.0
 
 
-def _token(token):
+def _token(token: Optional[str]) -> Optional[str]:
     return os.environ.get("SEMBLANTE_TOKEN") if token is None else token
 
 
-def _words(error):
+def _words(error: urllib.error.HTTPError) -> str:
     """What a problem document says, else what the status means."""
     try:
         detail = json.loads(error.read(_largest_problem))["detail"]
     except (OSError, ValueError, LookupError, TypeError):
-        return error.msg
-    return detail if isinstance(detail, str) else error.msg
+        return str(error.reason)
+    return detail if isinstance(detail, str) else str(error.reason)
 
 
-def fetch_head(server, model, *, lod=None, max_vertices=None, token=None, ssl_context=None, timeout=30.0, **options):
+def fetch_head(server: str, model: str, *, lod: Optional[int] = None, max_vertices: Optional[int] = None,
+               token: Optional[str] = None, ssl_context: Optional[ssl.SSLContext] = None, timeout: float = 30.0,
+               **options: Any) -> Head:
     """The Head of a model: `fetch_head("http://127.0.0.1:8080", "sample")`. `lod` or `max_vertices` select a level of detail.
     `token`: default SEMBLANTE_TOKEN of the environment. `options`: those of Head. Raises urllib.error.URLError,
     SemblanteError."""
@@ -44,16 +49,15 @@ def fetch_head(server, model, *, lod=None, max_vertices=None, token=None, ssl_co
     suffix = "?" + urllib.parse.urlencode(query) if query else ""
     token = _token(token)
 
-    def part(name):
+    def part(name: str) -> bytes:
         request = urllib.request.Request(f"{folder}/{name}{suffix}")
         if token:
             request.add_header("Authorization", f"Bearer {token}")
         try:
             with urllib.request.urlopen(request, timeout=timeout, context=ssl_context) as answer:
-                content = answer.read(_largest_part + 1)
+                content: bytes = answer.read(_largest_part + 1)
         except urllib.error.HTTPError as error:
-            error.msg = _words(error)
-            raise
+            raise urllib.error.HTTPError(error.url, error.code, _words(error), error.headers, None) from error
         if len(content) > _largest_part:
             raise SemblanteError("too_large", name, f"is larger than {_largest_part} bytes")
         return content
@@ -71,18 +75,19 @@ def fetch_head(server, model, *, lod=None, max_vertices=None, token=None, ssl_co
 class Connection:
     """A Stream with its WebSocket. Call `poll` often: it reconnects, sends what is due and returns events."""
 
-    def __init__(self, server, stream, *, token=None, ssl_context=None, connect_timeout=5.0, **options):
+    def __init__(self, server: str, stream: str, *, token: Optional[str] = None,
+                 ssl_context: Optional[ssl.SSLContext] = None, connect_timeout: float = 5.0, **options: Any) -> None:
         """`options`: those of Stream."""
         self.url = f"{server.rstrip('/')}/v1/streams/{urllib.parse.quote(stream, safe='')}"
         self.stream = Stream(seed=int.from_bytes(os.urandom(8), "little"), **options)
         self._token = _token(token)
         self._ssl_context = ssl_context
         self._connect_timeout = connect_timeout
-        self._socket = None
+        self._socket: Optional[WebSocket] = None
         self._was_open = False
         self.stream.start(now())
 
-    def poll(self, timeout=0.0):
+    def poll(self, timeout: float = 0.0) -> List[Event]:
         """Waits up to `timeout` seconds for a message and returns the events since the last call. Raises WebSocketError when
         the server refuses for good: no such stream (404), no rights (401, 403), not its name (421); it and OSError when the
         first connection cannot be made. A further call tries again. A connection that was made once is made again without
@@ -109,9 +114,9 @@ class Connection:
         self.stream.tick(now())
         return events + self._settle()
 
-    def _settle(self):
+    def _settle(self) -> List[Event]:
         """Does what the stream asks for, until it asks for nothing; the events on the way."""
-        events = []
+        events: List[Event] = []
         while True:
             event = self.stream.next_event()
             if event is None:
@@ -125,7 +130,7 @@ class Connection:
                 self._socket.close(event.code or 1000)
                 self._lose(event.code)
 
-    def _connect(self):
+    def _connect(self) -> None:
         headers = {"Authorization": f"Bearer {self._token}"} if self._token else {}
         try:
             self._socket = WebSocket(self.url, [SUBPROTOCOL], headers=headers, timeout=self._connect_timeout,
@@ -138,7 +143,7 @@ class Connection:
             self._was_open = True
             self.stream.opened(now())
 
-    def _may_pass(self, error):
+    def _may_pass(self, error: Exception) -> bool:
         """Whether to connect again without a word: a server that is busy or has stopped, but not one that refuses, or was
         never there: then the address is wrong, or its certificate is not accepted."""
         status = getattr(error, "status", None)
@@ -146,7 +151,7 @@ class Connection:
             return status in (408, 425, 429) or status >= 500
         return self._was_open
 
-    def _send(self):
+    def _send(self) -> bool:
         """Sends what waits; False when there was nothing."""
         message = self.stream.take_bytes()
         if message is None:
@@ -158,27 +163,28 @@ class Connection:
                 self._lose(1006)
         return True
 
-    def _lose(self, code):
+    def _lose(self, code: int) -> None:
         if self._socket:
             self._socket.close()
             self._socket = None
         self.stream.closed(code, now())
 
-    def close(self):
+    def close(self) -> None:
         self.stream.stop(now())
         self._settle()
         if self._socket:
             self._socket.close()
             self._socket = None
 
-    def __enter__(self):
+    def __enter__(self) -> "Connection":
         return self
 
-    def __exit__(self, *_):
+    def __exit__(self, *_: object) -> None:
         self.close()
 
 
-def follow(server, stream, *, head=None, rate=60.0, **options):
+def follow(server: str, stream: str, *, head: Optional[Head] = None, rate: float = 60.0,
+           **options: Any) -> Iterator[Player]:
     """Follows a stream at `rate` display frames per second. Yields a Player for each display frame at which there is something
     to show, after setting the pose of `head`. Ends with the stream. `options`: those of Connection."""
     player = Player()

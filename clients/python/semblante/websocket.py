@@ -12,6 +12,7 @@ import socket
 import ssl
 import struct
 import urllib.parse
+from typing import Mapping, Optional, Sequence, Tuple, Union
 
 _accept_suffix = b"258EAFA5-E914-47DA-95CA-C5AB0DC85B11"
 _continuation, _text, _binary, _close, _ping, _pong = 0, 1, 2, 8, 9, 10
@@ -20,7 +21,7 @@ _continuation, _text, _binary, _close, _ping, _pong = 0, 1, 2, 8, 9, 10
 class WebSocketError(OSError):
     """The connection could not be made, or the other side broke the protocol. `status`: of a refused handshake, else 0."""
 
-    def __init__(self, message, status=0):
+    def __init__(self, message: str, status: int = 0) -> None:
         super().__init__(message)
         self.status = status
 
@@ -28,7 +29,7 @@ class WebSocketError(OSError):
 class Closed(WebSocketError):
     """The connection has ended. `code`: the close code, 1006 when the connection was lost without one."""
 
-    def __init__(self, code, reason=""):
+    def __init__(self, code: int, reason: str = "") -> None:
         super().__init__(f"closed with {code}" + (f": {reason}" if reason else ""))
         self.code = code
         self.reason = reason
@@ -37,7 +38,8 @@ class Closed(WebSocketError):
 class WebSocket:
     """A connection to `url` (ws, wss, http or https). Raises WebSocketError, or OSError of the socket."""
 
-    def __init__(self, url, subprotocols=(), *, headers=None, timeout=10.0, ssl_context=None, max_message=1 << 20):
+    def __init__(self, url: str, subprotocols: Sequence[str] = (), *, headers: Optional[Mapping[str, str]] = None,
+                 timeout: float = 10.0, ssl_context: Optional[ssl.SSLContext] = None, max_message: int = 1 << 20) -> None:
         parts = urllib.parse.urlsplit(url)
         secure = parts.scheme in ("wss", "https")
         if parts.scheme not in ("ws", "wss", "http", "https") or not parts.hostname:
@@ -46,8 +48,8 @@ class WebSocket:
         self.max_message = max_message
         self._held = bytearray()  # bytes received, not yet parsed
         self._parts = bytearray()  # of a message in several frames
-        self._kind = None
-        self._socket = socket.create_connection((parts.hostname, port), timeout)
+        self._kind: Optional[int] = None
+        self._socket: socket.socket = socket.create_connection((parts.hostname, port), timeout)
         try:
             self._socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
             if secure:
@@ -58,8 +60,10 @@ class WebSocket:
             self._socket.close()
             raise
 
-    def _shake_hands(self, parts, port, secure, subprotocols, headers):
-        host = f"[{parts.hostname}]" if ":" in parts.hostname else parts.hostname
+    def _shake_hands(self, parts: urllib.parse.SplitResult, port: int, secure: bool, subprotocols: Sequence[str],
+                     headers: Mapping[str, str]) -> None:
+        name = parts.hostname or ""
+        host = f"[{name}]" if ":" in name else name
         if port != (443 if secure else 80):
             host += f":{port}"
         key = base64.b64encode(os.urandom(16))
@@ -90,17 +94,17 @@ class WebSocket:
             raise WebSocketError("the answer to the handshake belongs to another request")
         self.subprotocol = fields.get("sec-websocket-protocol")
 
-    def fileno(self):
+    def fileno(self) -> int:
         return self._socket.fileno()
 
-    def send(self, message):
+    def send(self, message: Union[str, bytes]) -> None:
         """Sends bytes as a binary message, str as a text message."""
         if isinstance(message, str):
             self._send_frame(_text, message.encode())
         else:
             self._send_frame(_binary, bytes(message))
 
-    def _send_frame(self, kind, payload):
+    def _send_frame(self, kind: int, payload: bytes) -> None:
         size = len(payload)
         head = bytes([0x80 | kind])
         if size < 126:
@@ -114,7 +118,7 @@ class WebSocket:
         masked = (int.from_bytes(payload, "big") ^ int.from_bytes(pattern, "big")).to_bytes(size, "big")
         self._socket.sendall(head + mask + masked)
 
-    def receive(self, timeout=None):
+    def receive(self, timeout: Optional[float] = None) -> Optional[Union[str, bytes]]:
         """The next message, bytes or str; None when none arrived within `timeout` seconds. Raises Closed at the end."""
         while True:
             message = self._next_message()
@@ -126,7 +130,7 @@ class WebSocket:
                 return None
             self._read_more()
 
-    def _read_more(self):
+    def _read_more(self) -> None:
         try:
             got = self._socket.recv(65536)
         except ConnectionError as error:
@@ -135,7 +139,7 @@ class WebSocket:
             raise Closed(1006, "the connection was lost")
         self._held += got
 
-    def _next_message(self):
+    def _next_message(self) -> Optional[Union[str, bytes]]:
         """A whole message of the bytes held; None when there is none yet. Answers pings on the way."""
         while True:
             frame = self._next_frame()
@@ -164,7 +168,7 @@ class WebSocket:
                     self._kind = None
                     return message.decode() if is_text else message
 
-    def _next_frame(self):
+    def _next_frame(self) -> Optional[Tuple[bool, int, bytes]]:
         held = self._held
         if len(held) < 2:
             return None
@@ -183,7 +187,7 @@ class WebSocket:
         del held[:at + size]
         return frame
 
-    def close(self, code=1000):
+    def close(self, code: int = 1000) -> None:
         """Says goodbye and closes; does not wait for the answer."""
         try:
             self._send_frame(_close, code.to_bytes(2, "big"))

@@ -57,10 +57,11 @@ std::string render_structs(const std::vector<CStruct>& structs) {
       "# headers, not this.\n"
       "\"\"\"The structs of semblante.h: the same members in the same order.\"\"\"\n\n"
       "import ctypes\n"
-      "from ctypes import POINTER, c_char, c_char_p, c_double, c_float, c_size_t, c_uint8, c_uint32, c_uint64\n\n\n"
+      "from ctypes import POINTER, c_char, c_char_p, c_double, c_float, c_size_t, c_uint8, c_uint32, c_uint64\n"
+      "from typing import Any\n\n\n"
       "class Sized(ctypes.Structure):\n"
       "    \"\"\"A struct that begins with its own size.\"\"\"\n\n"
-      "    def __init__(self, **members):\n"
+      "    def __init__(self, **members: Any) -> None:\n"
       "        super().__init__(size=ctypes.sizeof(type(self)), **members)\n";
   std::map<std::string, std::string> classes;
   for (const CStruct& record : structs) {

@@ -30,6 +30,7 @@ class Install(unittest.TestCase):
                 recorded = {line.split(",")[0] for line in wheel.read(record).decode().splitlines()}
             self.assertEqual(names, recorded)
             self.assertIn("semblante/libsemblante.so", names)
+            self.assertIn("semblante/py.typed", names)
             self.assertNotIn("any", name)
             source = semblante_build.build_sdist(folder)
             self.assertTrue(pathlib.Path(folder, source).stat().st_size > 1000)

@@ -1,7 +1,10 @@
 """The package for Python on golden files and beside a real server."""
 
 import array
+import ctypes
+import enum
 import gc
+import inspect
 import json
 import math
 import os
@@ -10,6 +13,7 @@ import socket
 import subprocess
 import sys
 import tempfile
+import typing
 import unittest
 import urllib.error
 
@@ -36,6 +40,27 @@ def golden_frame(values):
         frame.expression1, frame.intensity1 = expression["select1"], expression["intensity1"]
         frame.expression2, frame.intensity2 = expression["select2"], expression["intensity2"]
     return frame
+
+
+class Types(unittest.TestCase):
+    def test_every_public_function_declares_its_types(self):
+        functions = []
+        for name in semblante.__all__:
+            thing = getattr(semblante, name)
+            if inspect.isfunction(thing):
+                functions.append((name, thing))
+            elif inspect.isclass(thing) and not issubclass(thing, (ctypes.Structure, enum.Enum)):
+                functions += [(f"{name}.{member}", getattr(value, "fget", None) or getattr(value, "__func__", value))
+                              for member, value in vars(thing).items()
+                              if member == "__init__" or not member.startswith("_")]
+        functions = [(name, function) for name, function in functions if inspect.isfunction(function)]
+        self.assertGreater(len(functions), 60)
+        for name, function in functions:
+            with self.subTest(name):
+                declared = typing.get_type_hints(function)
+                self.assertIn("return", declared)
+                self.assertEqual([one for one in inspect.signature(function).parameters if one not in ("self", "_")],
+                                 [one for one in declared if one not in ("return", "_")])
 
 
 class Listeners(unittest.TestCase):
