@@ -2,11 +2,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <numbers>
 #include <string>
 #include <tuple>
+#include <unistd.h>
 #include <variant>
 #include <vector>
 
@@ -31,7 +33,8 @@ const VoiceProgram reader = {.command = {SEMBLANTE_SOUND}};
 
 /// 1.5 s of 440 Hz on two channels as a file of this format of libsndfile.
 std::string tone_file(int format, int rate) {
-  const std::string path = testing::TempDir() + "semblante-tone";
+  // Tests of this program run at the same time, each in a process of its own.
+  const std::string path = testing::TempDir() + "semblante-tone-" + std::to_string(::getpid());
   SF_INFO info{};
   info.samplerate = rate;
   info.channels = 2;
@@ -46,7 +49,9 @@ std::string tone_file(int format, int rate) {
   sf_writef_float(file, samples.data(), rate * 3 / 2);
   sf_close(file);
   std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
+  std::string content{std::istreambuf_iterator<char>(in), {}};
+  std::filesystem::remove(path);
+  return content;
 }
 
 TEST(SoundReader, ReadsTheFilesThatPeopleHave) {
