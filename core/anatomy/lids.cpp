@@ -7,12 +7,19 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/anatomy/smooth_step.h"
+
 namespace semblante {
 namespace {
 
-/// The slit in the middle, radians: below, the eye is closed; above, its pivot is not behind it.
-constexpr double least_slit = 0.03;
+/// The slit in the middle, radians. Beyond `greatest_overlap` and `greatest_slit` the points are not those of lids, or
+/// the pivot is not behind them.
+constexpr double greatest_overlap = 0.2;
 constexpr double greatest_slit = 2.4;
+/// Lids follow the gaze from the first slit on, from the second one as far as they ever do: those of somebody asleep do
+/// not.
+constexpr double closed_slit = 0.05;
+constexpr double open_slit = 0.3;
 
 /// The angle of a place about the line through the pivot along x, from straight ahead upwards.
 double angle_of(const glm::dvec3& p, const glm::dvec3& pivot) { return std::atan2(p.y - pivot.y, p.z - pivot.z); }
@@ -94,14 +101,16 @@ std::optional<Lids> find_lids(const Surface& surface, const EyeEdges& edges, con
   // Behind the axis a lid would slide the other way.
   if (upper.z <= pivot.z || lower.z <= pivot.z) return std::nullopt;
   const double slit = angle_of(upper, pivot) - angle_of(lower, pivot);
-  if (slit < least_slit || slit > greatest_slit) return std::nullopt;
+  if (slit < -greatest_overlap || slit > greatest_slit) return std::nullopt;
   Lids lids;
-  lids.slit = static_cast<float>(slit);
-  // FAP 1024 closes the eye: IRISD is the mean of both eyes, unless it was given by hand.
-  const double own = upper.y - lower.y;
-  const double opening = rig.fapu[FapuUnit::irisd] ? 1024.0 * *rig.fapu[FapuUnit::irisd] : own;
-  if (!(own > 0.0) || !(opening > 0.0)) return std::nullopt;
-  lids.opening = static_cast<float>(opening);
+  lids.slit = static_cast<float>(std::max(slit, least_slit));
+  // Lids close no farther than they are open: IRISD is the mean of both eyes, estimated if they are closed, or given by
+  // hand.
+  const double least = least_slit * std::hypot(upper.y - pivot.y, upper.z - pivot.z);
+  const double own = std::max(upper.y - lower.y, least);
+  lids.opening =
+      static_cast<float>(rig.fapu[FapuUnit::irisd] ? std::min(own, 1024.0 * *rig.fapu[FapuUnit::irisd]) : own);
+  for (float& share : lids.gaze_share) share *= static_cast<float>(smooth_step(closed_slit, open_slit, slit));
   const glm::dvec3 pole = pole_of(rig, eye, pivot);
   lids.gaze = pole;
   lids.ball = ball_of(surface, rig.parts, eye == 0 ? PartRole::left_eye : PartRole::right_eye, pivot, pole);

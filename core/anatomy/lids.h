@@ -13,9 +13,12 @@
 
 namespace semblante {
 
-/// How the lids of one eye (0 left, 1 right) roll on the eyeball. Empty if their edges are not known, or if the eye is
-/// closed on the neutral face, so that there is no way to roll. Reads the rig's parts, points, FAPUs, pivots and
-/// irises.
+/// Lids that touch or overlap have so much to close, radians.
+inline constexpr double least_slit = 0.001;
+
+/// How the lids of one eye (0 left, 1 right) roll on the eyeball. Empty if their edges are not known or not before the
+/// pivot. An eye that is closed on the neutral face has next to no slit to close, and can open. Reads the rig's parts,
+/// points, FAPUs, pivots and irises.
 std::optional<Lids> find_lids(const Surface& surface, const EyeEdges& edges, const Rig& rig, std::size_t eye);
 
 }  // namespace semblante

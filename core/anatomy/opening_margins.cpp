@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/anatomy/lid_edge.h"
+#include "core/anatomy/smooth_step.h"
 #include "core/geometry/shortest_path.h"
 
 namespace semblante {
@@ -17,6 +18,10 @@ namespace {
 /// Maximum number of places between the middle of a lid and a corner, or between two points of a lip.
 constexpr std::size_t places_of_lid = 9;
 constexpr std::size_t places_of_lip = 2;
+/// The height of an eye's opening as a share of its width. Below the first value its lids are closed, and the heights
+/// along their edges say nothing; from the second on they say how the lids close. Open eyes have 0.2 and more.
+constexpr double closed_height = 0.04;
+constexpr double open_height = 0.12;
 /// From the front, radians: so far from the side closed lids show no gap.
 constexpr double side_view = 1.05;
 
@@ -83,10 +88,27 @@ std::optional<double> meeting_height(const Surface& surface, const LidEdge& edge
   return std::min(*from_front, *from_side);
 }
 
-void add_lid_sites(const Surface& surface, const LidEdge& edge, const LidEdge& other, double travel, bool is_upper,
+/// Where a place lies between the corners of an edge: from 0 at the inner to 1 at the outer one.
+double place_between_corners(const LidEdge& edge, const glm::dvec3& p) {
+  const glm::dvec3 axis = edge.corners[1].position - edge.corners[0].position;
+  return std::clamp(glm::dot(p - edge.corners[0].position, axis) / glm::dot(axis, axis), 0.0, 1.0);
+}
+
+/// The share of the middle of a lid that is closed on the neutral face: an arc, 1 in the middle and 0 at the corners.
+double arc_share(const LidEdge& edge, const glm::dvec3& p) {
+  const double at = place_between_corners(edge, p);
+  const double middle = place_between_corners(edge, edge.middle.position);
+  const double to_corner = at < middle ? (middle - at) / middle : middle < 1.0 ? (at - middle) / (1.0 - middle) : 0.0;
+  return 1.0 - to_corner * to_corner;
+}
+
+void add_lid_sites(const Surface& surface, const LidEdge& edge, const LidEdge& other, bool is_upper,
                    std::vector<MarginSite>& sites) {
   const SurfacePoint& a = edge.corners[0];
   const SurfacePoint& b = edge.corners[1];
+  const double height = is_upper ? edge.middle.position.y - other.middle.position.y  //
+                                 : other.middle.position.y - edge.middle.position.y;
+  const double is_open = smooth_step(closed_height, open_height, height / glm::distance(a.position, b.position));
   for (std::size_t c = 0; c < 2; ++c) {
     const auto& path = edge.to_corner[c];
     std::vector<SurfaceVertexId> places = places_on(surface, path, places_of_lid);
@@ -95,9 +117,10 @@ void add_lid_sites(const Surface& surface, const LidEdge& edge, const LidEdge& o
       const glm::dvec3& p = surface.positions[vertex.value()];
       // Beyond the end of the other edge there is no opening.
       const double across = meeting_height(surface, edge, other, c, p, is_upper).value_or(p.y);
-      const double middle = std::clamp(std::abs(p.y - across) / travel, 0.0, 1.0);
-      const glm::dvec3 axis = b.position - a.position;
-      const double to_b = std::clamp(glm::dot(p - a.position, axis) / glm::dot(axis, axis), 0.0, 1.0);
+      const double by_height = height > 0.0 ? std::clamp(std::abs(p.y - across) / height, 0.0, 1.0) : 0.0;
+      const double arc = is_open < 1.0 ? arc_share(edge, p) : 0.0;
+      const double middle = is_open * by_height + (1.0 - is_open) * arc;
+      const double to_b = place_between_corners(edge, p);
       MarginSite site{vertex, {}};
       for (const auto& [id, share] : {std::pair(edge.middle.id, middle), std::pair(a.id, (1.0 - middle) * (1.0 - to_b)),
                                       std::pair(b.id, (1.0 - middle) * to_b)}) {
@@ -111,20 +134,10 @@ void add_lid_sites(const Surface& surface, const LidEdge& edge, const LidEdge& o
 void add_lids(const Surface& surface, std::span<const SurfacePoint> points, std::vector<MarginSite>& sites) {
   const std::array<std::optional<EyeEdges>, 2> eyes = {find_eye_edges(surface, points, 0),
                                                        find_eye_edges(surface, points, 1)};
-  // A lid at FAP 1024 moves by IRISD0, which is the mean of both eyes.
-  double travel = 0.0;
-  int open = 0;
   for (const auto& eye : eyes) {
     if (!eye) continue;
-    travel += eye->upper.middle.position.y - eye->lower.middle.position.y;
-    ++open;
-  }
-  if (!(travel > 0.0)) return;
-  travel /= open;
-  for (const auto& eye : eyes) {
-    if (!eye) continue;
-    add_lid_sites(surface, eye->upper, eye->lower, travel, true, sites);
-    add_lid_sites(surface, eye->lower, eye->upper, travel, false, sites);
+    add_lid_sites(surface, eye->upper, eye->lower, true, sites);
+    add_lid_sites(surface, eye->lower, eye->upper, false, sites);
   }
 }
 

@@ -19,9 +19,10 @@ struct MarginSite {
 /// points:
 ///
 /// - Edge of a lid: the share of its middle point (3.1 to 3.4) is the height of the eye's opening at the place divided
-///   by IRISD0; the corners have the rest. So FAPs 19 to 22 close the eye along the whole edge instead of only in the
-///   middle, and upper and lower lid meet even if each moves only part of the way. At the outer corner an upper lid
-///   that lies in front of the lower one overlaps it, so that the eye is closed as seen from the side too.
+///   by that in the middle; the corners have the rest. So FAPs 19 to 22 close the eye along the whole edge instead of
+///   only in the middle, and upper and lower lid meet even if each moves only part of the way. At the outer corner an
+///   upper lid that lies in front of the lower one overlaps it, so that the eye is closed as seen from the side too.
+///   The shares of an eye that is closed on the neutral face are an arc, which it has when it opens.
 /// - Inner edge of a lip: linear interpolation from point to point, with the same shares for both lips, so that lips
 ///   that touch and move equally continue to touch.
 ///

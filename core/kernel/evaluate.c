@@ -122,6 +122,9 @@ void semblante_evaluate(const semblante_rig* rig, const semblante_frame* frame, 
     }
   }
 
+  for (int eye = 0; eye < 2; ++eye) {
+    semblante_stop_lids(eye, pose);
+  }
   semblante_move_companions(rig, set, own, pose->fp);
   for (int eye = 0; eye < 2; ++eye) {
     semblante_close_lids(eye, angle[eye][0] * SEMBLANTE_AU_RADIANS, pose);

@@ -7,8 +7,11 @@
 #include "core/kernel/export.h"
 #include "core/tables/generated/mpeg4_tables.h"
 
-/* Lids open beyond neutral by at most this share of the slit, and their gaze is no steeper than this (radians). */
+/* A lid opens beyond neutral by at most this share of the slit, or until the slit is this wide if that is more
+ * (radians): eyes that are closed or hardly open on the neutral face can open. */
 #define WIDEST 0.75F
+#define WIDEST_SLIT 0.75F
+/* The gaze of lids is no steeper than this (radians). */
 #define STEEPEST 0.8F
 /* A lid keeps this clearance from the ball, as a share of the ball's radius, or what it has on the neutral face if that
  * is less. */
@@ -18,6 +21,17 @@ static float dot(const float a[3], const float b[3]) { return a[0] * b[0] + a[1]
 
 static float clamped(float value, float low, float high) { return value < low ? low : value > high ? high : value; }
 
+void semblante_stop_lids(int eye, semblante_pose* pose) {
+  const float opening = pose->lids[eye].opening;
+  if (!(opening > 0.0F)) {
+    return;
+  }
+  float* const upper = &pose->fp[SEMBLANTE_UPPER_LID(eye) * 3 + 1];
+  float* const lower = &pose->fp[SEMBLANTE_LOWER_LID(eye) * 3 + 1];
+  *upper = *upper < -opening ? -opening : *upper;
+  *lower = *lower > opening ? opening : *lower;
+}
+
 void semblante_close_lids(int eye, float pitch, semblante_pose* pose) {
   const semblante_lids* const lids = &pose->lids[eye];
   float* const closure = pose->lid_closure[eye];
@@ -25,14 +39,18 @@ void semblante_close_lids(int eye, float pitch, semblante_pose* pose) {
   if (!(lids->opening > 0.0F)) {
     return;
   }
-  float upper = clamped(-pose->fp[SEMBLANTE_UPPER_LID(eye) * 3 + 1] / lids->opening, -WIDEST, 1.0F);
-  float lower = clamped(pose->fp[SEMBLANTE_LOWER_LID(eye) * 3 + 1] / lids->opening, -WIDEST, 1.0F);
+  float widest = -WIDEST;
+  if (lids->slit > 0.0F && lids->slit * (1.0F + WIDEST) < WIDEST_SLIT) {
+    widest = 1.0F - WIDEST_SLIT / lids->slit;
+  }
+  float upper = clamped(-pose->fp[SEMBLANTE_UPPER_LID(eye) * 3 + 1] / lids->opening, widest, 1.0F);
+  float lower = clamped(pose->fp[SEMBLANTE_LOWER_LID(eye) * 3 + 1] / lids->opening, widest, 1.0F);
   if (lids->slit > 0.0F) {
     /* A lid follows the gaze as far as the eye is open. */
     const float gaze = clamped(pitch, -STEEPEST, STEEPEST) / lids->slit;
     const float open = clamped(1.0F - upper - lower, 0.0F, 1.0F);
-    upper = clamped(upper + open * lids->gaze_share[0] * gaze, -WIDEST, 1.0F);
-    lower = clamped(lower - open * lids->gaze_share[1] * gaze, -WIDEST, 1.0F);
+    upper = clamped(upper + open * lids->gaze_share[0] * gaze, widest, 1.0F);
+    lower = clamped(lower - open * lids->gaze_share[1] * gaze, widest, 1.0F);
   }
   const float both = upper + lower; /* lids meet and do not cross */
   closure[0] = both > 1.0F ? upper / both : upper;

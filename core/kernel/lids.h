@@ -14,6 +14,9 @@
 /* A vertex slides on its circle while its depth before the axis is more than this share of the circle's radius. */
 #define SEMBLANTE_LID_NEAREST 0.05F
 
+/* Stops the points of the lids of one eye in pose->fp where the eye is closed, so that what follows them stops too. */
+void semblante_stop_lids(int eye, semblante_pose* pose);
+
 /* pose->lid_closure of one eye, from the displacements in pose->fp and the eye's pitch (radians, positive down). */
 void semblante_close_lids(int eye, float pitch, semblante_pose* pose);
 

@@ -7,6 +7,7 @@
 #include <span>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "core/anatomy/point_lookup.h"
 #include "core/tables/mpeg4.h"
@@ -56,6 +57,23 @@ std::optional<double> mean_length(std::size_t unit, const FeaturePointSet& point
 
 constexpr std::size_t index_of(FapuUnit unit) { return static_cast<std::size_t>(unit); }
 
+/// The distance of the lids of one eye, if the other eye is closed.
+std::optional<double> lid_distance_of_open_eye(const FeaturePointSet& points) {
+  const std::optional<double> separation = mean_length(index_of(FapuUnit::es), points);
+  if (!separation) return std::nullopt;
+  std::vector<double> open;
+  std::size_t closed = 0;
+  for (const mpeg4::Measure& one : measures_of(index_of(FapuUnit::irisd))) {
+    const std::optional<double> length = measure(one, points);
+    if (!length) continue;
+    if (*length >= closed_lids * *separation)
+      open.push_back(*length);
+    else if (*length > -closed_lids * *separation)
+      ++closed;
+  }
+  return open.size() == 1 && closed == 1 ? std::optional(open.front()) : std::nullopt;
+}
+
 std::optional<double> compute_unit(std::size_t unit, const FeaturePointSet& points) {
   const std::optional<double> length = mean_length(unit, points);
   return length && *length > 0.0 ? std::optional(*length / divisor) : std::nullopt;
@@ -100,6 +118,8 @@ Fapu compute_fapu(const FeaturePointSet& points, const Fapu& by_user) {
     fapu.value[index_of(FapuUnit::irisd)] = iris_share * *fapu[FapuUnit::es];
     fapu.origin[index_of(FapuUnit::irisd)] = FapuOrigin::closed_eyes;
   }
+  if (const std::optional<double> open = lid_distance_of_open_eye(points); open && !visible)
+    fapu.value[index_of(FapuUnit::irisd)] = *open / divisor;
   for (std::size_t unit = 0; unit < fapu_unit_count; ++unit) {
     if (!by_user.value[unit]) continue;
     fapu.value[unit] = by_user.value[unit];

@@ -12,7 +12,8 @@ namespace semblante {
 
 /// FAPUs of a neutral face, in model units, already divided by 1024:
 ///
-///     IRISD  mean of 3.1.y - 3.3.y (left eye) and 3.2.y - 3.4.y (right); one eye alone is enough
+///     IRISD  mean of 3.1.y - 3.3.y (left eye) and 3.2.y - 3.4.y (right); one eye alone is enough, and
+///            of two the open one alone if the other is closed
 ///     ES     3.5.x - 3.6.x
 ///     ENS    3.5.y - 9.15.y
 ///     MNS    9.15.y - 2.2.y

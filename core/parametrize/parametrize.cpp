@@ -71,14 +71,15 @@ RigidMotion rigid_motion_of(PartRole role) {
   return RigidMotion::none;
 }
 
-/// Lids of one skin close as far as it does not fold over.
+/// Lids of one skin close as far as it does not fold over; what they have to close is never nothing.
 void stop_joined_lids(const Model& model, const Surface& surface, const std::vector<SurfacePoint>& points,
                       std::size_t eye, Rig& rig) {
   const mpeg4::Opening& opening = mpeg4::openings[1 + eye];
   if (!rig.lids[eye] || !are_joined(surface, opening, points)) return;
   Heights heights{};
   heights[parse_feature_point(opening.upper.front())->value()] = -rig.lids[eye]->opening;
-  rig.lids[eye]->opening *= static_cast<float>(share_before_fold(model, rig, heights));
+  const double least = least_slit / rig.lids[eye]->slit;
+  rig.lids[eye]->opening *= static_cast<float>(std::max(share_before_fold(model, rig, heights), least));
 }
 
 /// The vertices of lids: those that follow the points of one eye's lids. A vertex that follows both eyes is skin.

@@ -117,12 +117,13 @@ double between(const float* table, int count, double at) {
 
 std::array<double, 2> closure_of(const semblante_lids& lids, double upper_y, double lower_y, double pitch) {
   if (lids.opening <= 0.0F) return {0.0, 0.0};
-  double upper = limited(-upper_y / lids.opening, -0.75, 1.0);
-  double lower = limited(lower_y / lids.opening, -0.75, 1.0);
+  const double widest = std::min(-0.75, 1.0 - 0.75 / lids.slit);
+  double upper = limited(-upper_y / lids.opening, widest, 1.0);
+  double lower = limited(lower_y / lids.opening, widest, 1.0);
   const double gaze = limited(pitch, -0.8, 0.8) / lids.slit;
   const double open = limited(1.0 - upper - lower, 0.0, 1.0);
-  upper = limited(upper + open * lids.gaze_share[0] * gaze, -0.75, 1.0);
-  lower = limited(lower - open * lids.gaze_share[1] * gaze, -0.75, 1.0);
+  upper = limited(upper + open * lids.gaze_share[0] * gaze, widest, 1.0);
+  lower = limited(lower - open * lids.gaze_share[1] * gaze, widest, 1.0);
   const double both = std::max(1.0, upper + lower);
   return {upper / both, lower / both};
 }
@@ -181,10 +182,18 @@ Pose evaluate(const semblante_rig& rig, const semblante_frame& frame) {
       own[fp][fap.axis] = 1.0;
     }
   }
+  const auto upper_lid_of = [](int eye) { return 14 + eye; };  // 3.1, 3.2
+  const auto lower_lid_of = [](int eye) { return 16 + eye; };  // 3.3, 3.4
+  for (int eye = 0; eye < 2; ++eye) {
+    const double opening = rig.lids[eye].opening;
+    if (opening <= 0.0) continue;
+    pose.fp[upper_lid_of(eye)][1] = std::max(-opening, pose.fp[upper_lid_of(eye)][1]);
+    pose.fp[lower_lid_of(eye)][1] = std::min(opening, pose.fp[lower_lid_of(eye)][1]);
+  }
   follow(rig, sets, own, pose);
   for (int eye = 0; eye < 2; ++eye) {
-    const int upper_lid = 14 + eye;  // 3.1, 3.2
-    const int lower_lid = 16 + eye;  // 3.3, 3.4
+    const int upper_lid = upper_lid_of(eye);
+    const int lower_lid = lower_lid_of(eye);
     pose.lid_closure[eye] = closure_of(rig.lids[eye], pose.fp[upper_lid][1], pose.fp[lower_lid][1], angle[eye][0]);
   }
   const auto compose = [](const std::array<double, 3>& a) {

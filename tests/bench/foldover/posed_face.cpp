@@ -56,7 +56,7 @@ std::vector<Head> heads_with_lids() {
   std::erase_if(heads, [](const Head& head) { return head.name == "mediapipe-canonical"; });
   for (const testing::FamilyMember& member : testing::sample_family()) {
     if (member.traits == SampleHeadTraits{} || member.traits.form == SampleHeadForm::scan) continue;
-    if (member.traits.closed_eyes) continue;  // there is no way to roll
+    if (member.traits.closed_eyes) continue;  // they only open
     Head head{member.name, testing::sample_head_model(member.traits), {}, testing::sample_head_points(member.traits)};
     head.surface = build_surface(head.model);
     heads.push_back(std::move(head));

@@ -14,6 +14,7 @@
 #include "core/expressions/contact.h"
 #include "tests/bench/foldover/fold_over.h"
 #include "tests/bench/foldover/posed_face.h"
+#include "tests/support/sample_head_model.h"
 
 namespace semblante {
 namespace {
@@ -51,6 +52,39 @@ TEST(Blink, ShutsTheEyeAlongTheWholeLidAndNoFarther) {
       EXPECT_LE(shut.crossing, 0.055) << head.name;
     }
   }
+}
+
+TEST(Blink, LeavesAnEyeThatIsClosedAtRestAsItIs_AndItOpensInAnArc) {
+  std::size_t closed = 0;
+  for (const testing::FamilyMember& member : testing::sample_family()) {
+    if (!member.traits.closed_eyes) continue;
+    ++closed;
+    bench::Head head{
+        member.name, testing::sample_head_model(member.traits), {}, testing::sample_head_points(member.traits)};
+    head.surface = build_surface(head.model);
+    const PosedFace face(head, WeightMethod::smooth);
+    const double irisd = 1024.0 * *face.rig().fapu[FapuUnit::irisd];
+    const auto shut =
+        face.pose(bench::frame_of({{19, 1024.0F}, {20, 1024.0F}, {21, 1024.0F}, {22, 1024.0F}, {25, 20000.0F}}));
+    double farthest = 0.0;
+    for (std::uint32_t v = 0; v < shut.size(); ++v) {
+      if (face.role_of(v) == PartRole::left_eye) continue;  // it turned
+      farthest = std::max<double>(farthest, glm::distance(shut[v], head.model.positions[v]));
+    }
+    EXPECT_LT(farthest, 0.01 * irisd) << head.name;
+    const auto open = face.pose(bench::frame_of({{19, -512.0F}, {20, -512.0F}}));
+    EXPECT_EQ(bench::count_fold_over(head.model.triangles, head.model.positions, open).inverted, 0U) << head.name;
+    for (std::size_t eye = 0; eye < 2; ++eye) {
+      const auto edges = find_eye_edges(head.surface, head.points, eye);
+      ASSERT_TRUE(edges.has_value());
+      for (const auto& path : edges->upper.to_corner) {
+        const SurfaceVertexId halfway = path[path.size() / 2];
+        const std::uint32_t v = head.surface.file_vertex_of[halfway.value()].value();
+        EXPECT_GT(open[v].y - head.model.positions[v].y, 0.25 * irisd) << head.name;  // of the 0.5 in the middle
+      }
+    }
+  }
+  EXPECT_GT(closed, 0U);
 }
 
 // The lids' own shape is not Eq. 7's: a fit that were free at their edges would leave a tenth of the eye open.

@@ -96,6 +96,23 @@ TEST(Kernel_Lids, SlideRoundTheEye_ToTheHeightOfEq7_AndMeet) {
   expect_near(on_lid(rig, frame, on_circle(0.0F, -1.0), lower_lid), on_circle(0.0F, 1.0), 1e-5F);
 }
 
+TEST(Kernel_Lids, OfAnEyeThatIsClosedAtRest_CloseNoFarther_AndOpen) {
+  TestRig rig;
+  with_lids(rig);
+  rig.rig.lids[0].slit = 0.001F;
+  rig.rig.lids[0].opening = 0.01F;
+  semblante_frame frame{};
+  frame.fap[19] = 8.0F;
+  frame.fap[21] = 8.0F;
+  expect_near(on_lid(rig, frame, on_circle(0.0F, 3.0), upper_lid), on_circle(0.0F, 3.0), 0.011F);
+  expect_near(on_lid(rig, frame, on_circle(0.0F, 3.0), lower_lid), on_circle(0.0F, 3.0), 0.011F);
+  frame.fap[19] = -2.0F;  // IRISD
+  frame.fap[21] = 0.0F;
+  expect_near(on_lid(rig, frame, on_circle(0.0F, 3.0), upper_lid), on_circle(0.0F, 4.0), 1e-4F);
+  frame.fap[19] = -1000.0F;  // the slit is 0.75 radians at most
+  expect_near(on_lid(rig, frame, on_circle(0.0F, -1.0), upper_lid), on_circle(0.0F, -1.0 + 0.01 * 749.0), 1e-3F);
+}
+
 TEST(Kernel_Lids, FollowTheGaze_AsFarAsTheyAreOpen) {
   TestRig rig;
   with_lids(rig);

@@ -82,6 +82,18 @@ TEST(Fapu, ClosedEyes_AreMeasuredBetweenTheCornersOfTheLids) {
   EXPECT_TRUE(explain_missing_fapu(fapu, points).empty());
 }
 
+TEST(Fapu, OneClosedEye_DoesNotCount) {
+  FeaturePointSet points = whole_face;
+  for (FeaturePoint& p : points) {
+    if (p.id == testing::fp("3.1")) p.position.y = 3.0F;
+    if (p.id == testing::fp("3.3")) p.position.y = 1.0F;
+    if (p.id == testing::fp("3.2") || p.id == testing::fp("3.4")) p.position.y = 1.0F;
+  }
+  const Fapu fapu = compute_fapu(points);
+  EXPECT_DOUBLE_EQ(fapu[FapuUnit::irisd].value() * 1024, 2.0);
+  EXPECT_EQ(fapu.origin[static_cast<std::size_t>(FapuUnit::irisd)], FapuOrigin::points);
+}
+
 TEST(Fapu, MissingPoints_LeaveTheUnitEmptyAndAreNamed) {
   FeaturePointSet points = whole_face;
   std::erase_if(points, [](const FeaturePoint& p) { return p.id == testing::fp("9.15"); });
