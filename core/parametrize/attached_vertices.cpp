@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <queue>
 
 #include <glm/geometric.hpp>
@@ -12,6 +13,9 @@
 namespace semblante {
 namespace {
 
+/// Times that a vertex of a lash takes the mean of what its neighbours follow.
+constexpr int smoothings = 4;
+
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// Of a length through the air, per length along the part.
@@ -20,6 +24,7 @@ constexpr double air = 4.0;
 // Of lashes, in widths of the eye.
 constexpr double root_from_edge = 0.15;  ///< their nearest vertex to the edge of the lid
 constexpr double longest_lash = 1.0;     ///< no vertex is farther from it
+constexpr double root = 0.03;            ///< a vertex so near to the edge is a root, and goes with it
 constexpr double of_one_lid = 0.8;       ///< of their vertices are nearer to the edge of one lid than to the other's:
                                          ///< what fills the gap between lid and eye is at both
 
@@ -59,6 +64,29 @@ std::vector<SurfaceVertexId> vertices_of_skin(const Surface& surface, std::span<
   return vertices;
 }
 
+/// Each of the vertices follows what it and its neighbours follow, in equal parts, but for those that are `fixed`.
+void smooth(const Surface& surface, std::span<const SurfaceVertexId> vertices, const std::vector<bool>& fixed,
+            std::vector<std::vector<FollowedVertex>>& followed) {
+  for (int k = 0; k < smoothings; ++k) {
+    std::vector<std::vector<FollowedVertex>> next;
+    for (const SurfaceVertexId v : vertices) {
+      std::map<SurfaceVertexId, double> shares;
+      double count = 0.0;
+      const auto add = [&](SurfaceVertexId from) {
+        for (const FollowedVertex& f : followed[from.value()]) shares[f.vertex] += f.share;
+        count += 1.0;
+      };
+      add(v);
+      if (!fixed[v.value()]) {
+        for (const Surface::Step& step : surface.steps_from(v)) add(step.to);
+      }
+      std::vector<FollowedVertex>& mean = next.emplace_back();
+      for (const auto& [vertex, share] : shares) mean.push_back({vertex, share / count});
+    }
+    for (std::size_t i = 0; i < vertices.size(); ++i) followed[vertices[i].value()] = std::move(next[i]);
+  }
+}
+
 /// The edges of the lids of one eye.
 struct EdgesOfEye {
   SkinVertices upper, lower;
@@ -85,8 +113,13 @@ std::vector<EdgesOfEye> edges_of_eyes(const Surface& surface, std::span<const Pa
   return eyes;
 }
 
-/// The edge of the lid whose lash the part is; null if it is none.
-const SkinVertices* edge_of_lash(const Surface& surface, PartId part, std::span<const EdgesOfEye> eyes) {
+/// The edge of the lid whose lash a part is.
+struct EdgeOfLash {
+  const SkinVertices* edge = nullptr;  ///< null if the part is no lash
+  double eye_width = 0.0;
+};
+
+EdgeOfLash edge_of_lash(const Surface& surface, PartId part, std::span<const EdgesOfEye> eyes) {
   const auto members = surface.members_of(part);
   for (const EdgesOfEye& eye : eyes) {
     double nearest = infinite;
@@ -101,17 +134,17 @@ const SkinVertices* edge_of_lash(const Surface& surface, PartId part, std::span<
     }
     if (nearest > root_from_edge * eye.width || farthest > longest_lash * eye.width) continue;
     const double upper = static_cast<double>(at_upper) / static_cast<double>(members.size());
-    if (upper >= of_one_lid) return &eye.upper;
-    if (upper <= 1.0 - of_one_lid) return &eye.lower;
+    if (upper >= of_one_lid) return {&eye.upper, eye.width};
+    if (upper <= 1.0 - of_one_lid) return {&eye.lower, eye.width};
   }
-  return nullptr;
+  return {};
 }
 
 }  // namespace
 
-std::vector<std::optional<SurfaceVertexId>> followed_by_attached(const Surface& surface, std::span<const Part> parts,
-                                                                 std::span<const SurfacePoint> points) {
-  std::vector<std::optional<SurfaceVertexId>> followed(surface.vertex_count());
+std::vector<std::vector<FollowedVertex>> followed_by_attached(const Surface& surface, std::span<const Part> parts,
+                                                              std::span<const SurfacePoint> points) {
+  std::vector<std::vector<FollowedVertex>> followed(surface.vertex_count());
   const auto is_attached = [](const Part& part) { return part.role == PartRole::attached; };
   if (std::none_of(parts.begin(), parts.end(), is_attached)) return followed;
   std::vector<SurfaceVertexId> of_skin = vertices_of_skin(surface, parts);
@@ -120,19 +153,23 @@ std::vector<std::optional<SurfaceVertexId>> followed_by_attached(const Surface& 
   const std::vector<EdgesOfEye> eyes = edges_of_eyes(surface, parts, points);
 
   std::vector<double> cost(surface.vertex_count(), infinite);
+  std::vector<bool> is_root(surface.vertex_count(), false);
+  std::vector<PartId> lashes;
   using Entry = std::pair<double, SurfaceVertexId>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   const auto lower = [&](SurfaceVertexId vertex, double to, SurfaceVertexId follows) {
     if (to >= cost[vertex.value()]) return;
     cost[vertex.value()] = to;
-    followed[vertex.value()] = follows;
+    followed[vertex.value()] = {{follows, 1.0}};
     queue.emplace(to, vertex);
   };
   for (std::uint32_t p = 0; p < parts.size(); ++p) {
     if (!is_attached(parts[p])) continue;
-    const SkinVertices* const edge = edge_of_lash(surface, PartId(p), eyes);
+    const auto [edge, eye_width] = edge_of_lash(surface, PartId(p), eyes);
+    if (edge != nullptr) lashes.push_back(PartId(p));
     for (const SurfaceVertexId v : surface.members_of(PartId(p))) {
       const SkinVertices::Hit hit = (edge != nullptr ? *edge : skin).nearest(surface.positions[v.value()]);
+      is_root[v.value()] = edge != nullptr && hit.distance < root * eye_width;
       lower(v, air * hit.distance, hit.vertex);
     }
   }
@@ -140,10 +177,10 @@ std::vector<std::optional<SurfaceVertexId>> followed_by_attached(const Surface& 
     const auto [so_far, vertex] = queue.top();
     queue.pop();
     if (so_far > cost[vertex.value()]) continue;
-    for (const Surface::Step& step : surface.steps_from(vertex)) {
-      lower(step.to, so_far + step.length, *followed[vertex.value()]);
-    }
+    const SurfaceVertexId follows = followed[vertex.value()].front().vertex;
+    for (const Surface::Step& step : surface.steps_from(vertex)) lower(step.to, so_far + step.length, follows);
   }
+  for (const PartId part : lashes) smooth(surface, surface.members_of(part), is_root, followed);
   return followed;
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -10,14 +9,21 @@
 
 namespace semblante {
 
-/// The skin vertex that a vertex of an attached part follows, by surface vertex; empty for other vertices and without
-/// skin.
+/// A vertex of the skin that a vertex of an attached part follows, and by which share.
+struct FollowedVertex {
+  SurfaceVertexId vertex;
+  double share = 1.0;
+};
+
+/// What the vertices of attached parts follow, by surface vertex; empty for other vertices and without skin. The shares
+/// of a vertex have the sum 1.
 ///
 /// A lash is attached to the lid by its root: its tip must not follow the brow, which may be nearer. So a vertex
 /// follows the skin vertex with the shortest path to it, where lengths through the air count several times those along
 /// the part. The paths of lashes end at the edge of their lid: on a face with heavy lids or a low brow, their tips lie
-/// on the skin above it.
-std::vector<std::optional<SurfaceVertexId>> followed_by_attached(const Surface& surface, std::span<const Part> parts,
-                                                                 std::span<const SurfacePoint> points);
+/// on the skin above it. Beyond its root a lash follows a mean along the edge, or it would crumple where the edge
+/// moves unequally, as at the corners of the eye.
+std::vector<std::vector<FollowedVertex>> followed_by_attached(const Surface& surface, std::span<const Part> parts,
+                                                              std::span<const SurfacePoint> points);
 
 }  // namespace semblante

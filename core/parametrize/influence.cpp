@@ -64,7 +64,7 @@ WeightTable<float> influence_with_roles(const Surface& surface, std::span<const 
         row.add_row(weights, vertex, 1.0);
         break;
       case PartRole::attached:
-        if (followed[s]) row.add_row(weights, *followed[s], 1.0);
+        for (const auto& [skin, share] : followed[s]) row.add_row(weights, skin, share);
         break;
       case PartRole::tongue:
         row.add_row(weights, vertex, mouth[s].tongue);
