@@ -75,7 +75,7 @@ TEST(Blink, LeavesAnEyeThatIsClosedAtRestAsItIs_AndItOpensInAnArc) {
     const auto open = face.pose(bench::frame_of({{19, -512.0F}, {20, -512.0F}}));
     EXPECT_EQ(bench::count_fold_over(head.model.triangles, head.model.positions, open).inverted, 0U) << head.name;
     for (std::size_t eye = 0; eye < 2; ++eye) {
-      const auto edges = find_eye_edges(head.surface, head.points, eye);
+      const auto edges = find_eye_edges(head.surface, surface_points(head.surface, head.points), eye);
       ASSERT_TRUE(edges.has_value());
       for (const auto& path : edges->upper.to_corner) {
         const SurfaceVertexId halfway = path[path.size() / 2];
