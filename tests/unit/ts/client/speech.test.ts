@@ -310,3 +310,67 @@ describe('StreamSpeech', () => {
     expect(voiceFor([], 'en')).toBeNull();
   });
 });
+
+/** A voice that says each word at a pace of its own, and tells it so late, ms. */
+interface KnownVoice {
+  /** Of the length that the score has. */
+  pace: number;
+  late: number;
+}
+
+/**
+ * Has such a voice say 40 words of one to four sounds, looks every 10 ms at the mouth and at the sound that the voice says then, and
+ * gives the lag at which most of them are the same, ms (positive: the mouth is late), that share, and the lags of the words' beginnings.
+ */
+async function mouthBesideVoice({ pace, late }: KnownVoice): Promise<{ lag: number; same: number; begins: number[] }> {
+  let seed = 7;
+  const random = (): number => (seed = (seed * 16_807) % 2_147_483_647) / 2_147_483_647;
+  const words = Array.from({ length: 40 }, () => Array.from({ length: 1 + Math.floor(4 * random()) }, () => ({ viseme: 1 + Math.floor(14 * random()), units: 2 + Math.floor(3 * random()) })));
+  const bytes = words.flatMap((word) => word.map(({ viseme, units }, i) => viseme * 16 + (i === 0 ? 8 : 0) + units - 1));
+  const { give, voices, mouth } = await begin();
+  give(text({ text: words.map(() => 'w').join(' '), score: Uint8Array.from(bytes) }));
+  await vi.advanceTimersByTimeAsync(5);
+  voices.last.onstart!();
+  // What the voice says when, by the steps of the score at the pace of each word.
+  let clock = 0;
+  const said = words.map((word) => {
+    const own = pace * (0.85 + 0.3 * random());
+    const begins = clock;
+    const sounds = word.map(({ viseme, units }) => ({ viseme, until: (clock += 30 * units * own) }));
+    return { begins, sounds };
+  });
+  const sounds = said.flatMap((word) => word.sounds);
+  const truth: number[] = [];
+  const shown: (number | null)[] = [];
+  for (let now = 0, told = 0; now < clock; now += 10) {
+    for (; told < said.length && said[told]!.begins + late <= now; told += 1) voices.last.onboundary!({ name: 'word', charIndex: 2 * told });
+    truth.push(sounds.find(({ until }) => now < until)!.viseme);
+    shown.push(mouth());
+    await vi.advanceTimersByTimeAsync(10);
+  }
+  const sameAt = (lag: number): number => truth.filter((viseme, n) => shown[n + lag / 10] === viseme).length / truth.length;
+  const lags = Array.from({ length: 41 }, (_, n) => 10 * n - 200);
+  const lag = lags.reduce((best, one) => (sameAt(one) > sameAt(best) ? one : best));
+  const begins = said.slice(1).flatMap(({ begins: at, sounds: [first] }, i) => {
+    if (said[i]!.sounds.at(-1)!.viseme === first!.viseme) return [];
+    const found = shown.findIndex((viseme, n) => 10 * n >= at - 60 && viseme === first!.viseme);
+    return [10 * found - at];
+  });
+  return { lag, same: sameAt(lag), begins: begins.sort((a, b) => a - b) };
+}
+
+describe('The mouth beside a voice whose words are known', () => {
+  it.each<KnownVoice>([
+    { pace: 1, late: 0 },
+    { pace: 0.8, late: 0 },
+    { pace: 1.25, late: 0 },
+    { pace: 1, late: 30 },
+  ])('%o: its lag is at most 40 ms', async (voice) => {
+    const { lag, same, begins } = await mouthBesideVoice(voice);
+    const at = (share: number): number => begins[Math.round((begins.length - 1) * share)]!;
+    console.info(`pace ${voice.pace}, words told ${voice.late} ms late: lag ${lag} ms, ${(100 * same).toFixed(0)} % of frames the same; beginnings of ${begins.length} words: median ${at(0.5).toFixed(0)}, nine in ten ${at(0.9).toFixed(0)}, most ${at(1).toFixed(0)} ms`);
+    expect(Math.abs(lag)).toBeLessThanOrEqual(40);
+    expect(at(0.5)).toBeLessThanOrEqual(40 + voice.late);
+    expect(same).toBeGreaterThan(0.6);
+  });
+});
