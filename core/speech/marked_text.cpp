@@ -44,7 +44,6 @@ constexpr std::array<Prosody, mpeg4::expressions.size()> prosodies = {
     {{1.0, 1.0}, {1.05, 1.12}, {0.88, 0.9}, {1.06, 0.95}, {1.1, 1.12}, {0.94, 0.94}, {1.03, 1.12}}};
 
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'); }
-bool is_space(char c) { return c == ' ' || c == '\n' || c == '\t'; }
 
 /// "[joy 0.5]" or "[/joy]" at the beginning of a text.
 struct Tag {

@@ -11,14 +11,21 @@ namespace {
 constexpr std::array<std::string_view, 8> spaced = {".", "!", "?", "\n", "…", "؟", "۔", "।"};
 constexpr std::array<std::string_view, 4> unspaced = {"。", "！", "？", "｡"};
 constexpr std::array<std::string_view, 7> clause_signs = {",", ";", ":", "،", "，", "、", "；"};
+/// Quotation marks and brackets, before a word and after it. A mark of one language's beginnings may end in another.
+constexpr std::array<std::string_view, 14> opening = {"\"", "'", "(", "[", "{",  "“",  "‘",
+                                                      "„",  "«", "¿", "¡", "「", "『", "（"};
+constexpr std::array<std::string_view, 11> closing = {"\"", "'", ")", "]", "}", "”", "’", "»", "」", "』", "）"};
 constexpr std::size_t long_clause = 160;  ///< letters
 
-bool is_space(char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-bool ends_with_one(std::string_view text, std::span<const std::string_view> signs) {
-  return std::any_of(signs.begin(), signs.end(), [&](std::string_view sign) { return text.ends_with(sign); });
+/// Bytes of the sign that a text ends with; 0: none of these.
+std::size_t ending(std::string_view text, std::span<const std::string_view> signs) {
+  for (const std::string_view sign : signs)
+    if (text.ends_with(sign)) return sign.size();
+  return 0;
 }
+bool ends_with_one(std::string_view text, std::span<const std::string_view> signs) { return ending(text, signs) > 0; }
 bool ends_with_sign(std::string_view text) {
   return ends_with_one(text, clause_signs) || ends_with_one(text, spaced) || ends_with_one(text, unspaced);
 }
@@ -37,7 +44,12 @@ std::size_t letters_of_character(std::string_view text) {
   const auto byte = [text](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
   const bool is_before = byte(0) < 0xE0 || (byte(0) == 0xE0 && byte(1) < 0xB8);
   const bool is_latin_or_sign = (byte(0) == 0xE1 && byte(1) >= 0xB8) || byte(0) == 0xE2;
-  return is_before || is_latin_or_sign ? 1 : 6;
+  if (is_before || is_latin_or_sign) return 1;
+  // Thai, Lao and Tibetan (U+0E00 to U+0FFF), Ethiopic (U+1200 to U+137F), Khmer (U+1780 to U+17FF).
+  const bool is_spelled = (byte(0) == 0xE0 && byte(1) >= 0xB8) ||
+                          (byte(0) == 0xE1 && byte(1) >= 0x88 && byte(1) < 0x8E) ||
+                          (byte(0) == 0xE1 && (byte(1) == 0x9E || byte(1) == 0x9F));
+  return is_spelled ? 12 : 6;
 }
 
 bool has_signs_alone(std::string_view text) {
@@ -61,10 +73,17 @@ bool ends_sentence(std::string_view text, std::size_t bytes) {
 }
 
 bool is_sentence_end(std::string_view text) {
-  while (!text.empty() &&
-         (is_space(text.back()) || std::string_view("\"')]").find(text.back()) != std::string_view::npos))
-    text.remove_suffix(1);
+  while (!text.empty()) {
+    const std::size_t bytes = is_space(text.back()) ? 1 : ending(text, closing);
+    if (bytes == 0) break;
+    text.remove_suffix(bytes);
+  }
   return ends_with_one(text, spaced) || ends_with_one(text, unspaced);
+}
+
+std::size_t with_opening(std::string_view text, std::size_t byte) {
+  while (const std::size_t bytes = ending(text.substr(0, byte), opening)) byte -= bytes;
+  return byte;
 }
 
 bool may_break(std::string_view before, std::string_view after, std::size_t letters) {

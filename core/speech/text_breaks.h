@@ -5,6 +5,8 @@
 
 namespace semblante {
 
+inline bool is_space(char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r'; }
+
 /// A part of a text that is said alone has at least so many letters.
 inline constexpr std::size_t least_part_letters = 40;
 /// A part without an end of a sentence is cut between words, or after a sign, from `long_part_letters` on, and anywhere
@@ -12,7 +14,8 @@ inline constexpr std::size_t least_part_letters = 40;
 inline constexpr std::size_t long_part_letters = 320, most_part_letters = 480;
 
 /// As how many letters the character that a text begins with counts, by the time in which it is said: 1; a character of
-/// East and Southeast Asia, which is a syllable or, in a voice of another language, the name of a letter, 6.
+/// East and Southeast Asia, which is a syllable or, in a voice of another language, the name of a letter, 6; one of a
+/// script that the voice of espeak-ng does not read, which spells it ("Thai letter ..."), 12.
 std::size_t letters_of_character(std::string_view text);
 
 /// Number of bytes of the sign that a text begins with, if the sign can end a sentence, else 0: a newline, and those of
@@ -28,6 +31,9 @@ bool ends_sentence(std::string_view text, std::size_t bytes);
 
 /// Whether a text ends with the end of a sentence, with the spaces, quotation marks and brackets after it.
 bool is_sentence_end(std::string_view text);
+
+/// Where a word that begins at a byte is written from: at the quotation marks and brackets before it.
+std::size_t with_opening(std::string_view text, std::size_t byte);
 
 /// Whether a part may end between `before`, of so many letters, and `after` although no sentence ends there.
 bool may_break(std::string_view before, std::string_view after, std::size_t letters);

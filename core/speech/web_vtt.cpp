@@ -5,6 +5,7 @@
 
 #include "core/speech/characters.h"
 #include "core/speech/speech.h"
+#include "core/speech/text_breaks.h"
 
 namespace semblante {
 namespace {
@@ -20,8 +21,8 @@ std::string time_text(double ms) {
   return text.data();
 }
 
-/// Text as WebVTT has it: on one line, without markup.
-std::string plain(std::string_view text) {
+/// Text as WebVTT has it: on one line, without markup, with one space in place of several.
+std::string on_one_line(std::string_view text) {
   std::string safe;
   for (const char c : text) {
     if (c == '&')
@@ -30,12 +31,12 @@ std::string plain(std::string_view text) {
       safe += "&lt;";
     else if (c == '>')
       safe += "&gt;";
-    else
-      safe += c == '\n' || c == '\t' || c == '\r' ? ' ' : c;
+    else if (!is_space(c))
+      safe += c;
+    else if (!safe.ends_with(' '))
+      safe += ' ';
   }
-  const std::size_t first = safe.find_first_not_of(' ');
-  if (first == std::string::npos) return {};
-  return safe.substr(first, safe.find_last_not_of(' ') - first + 1);
+  return safe;
 }
 
 }  // namespace
@@ -43,6 +44,9 @@ std::string plain(std::string_view text) {
 std::string web_vtt(const Utterance& utterance, std::string_view text) {
   const Characters characters(text);
   const auto& words = utterance.words;
+  const auto begin_of = [&](std::size_t i) {
+    return i == 0 ? 0 : i == words.size() ? text.size() : with_opening(text, characters.byte_of(words[i].range.first));
+  };
   std::string vtt = "WEBVTT\n";
   for (std::size_t first = 0; first < words.size();) {
     // To the end of the sentence, or where the line is full.
@@ -50,8 +54,7 @@ std::string web_vtt(const Utterance& utterance, std::string_view text) {
                                            [](double time, const SpokenSentence& s) { return time < s.time; });
     std::size_t last = first + 1;
     while (last < words.size() && (sentence == utterance.sentences.end() || words[last].time < sentence->time) &&
-           words[last].range.first + words[last].range.count <= words[first].range.first + most_characters_a_cue &&
-           words[last].range.first >= words[last - 1].range.first)
+           words[last].range.first + words[last].range.count <= words[first].range.first + most_characters_a_cue)
       ++last;
     const bool is_end = last == words.size();
     const double end =
@@ -59,21 +62,14 @@ std::string web_vtt(const Utterance& utterance, std::string_view text) {
     if (end > words[first].time) {
       vtt += "\n" + time_text(words[first].time) + " --> " + time_text(end) + "\n";
       for (std::size_t i = first; i < last; ++i) {
-        const std::size_t begin = characters.byte_of(words[i].range.first);
-        const std::size_t own_end = characters.byte_of(words[i].range.first + words[i].range.count);
-        // The word with the signs after it, up to the next word, also where that begins within this one: a number that
-        // is said in parts ("3", ",5"). A voice's words have no such parts any more (whole_words.h).
-        const bool is_last_in_cue = i + 1 == last;
-        const bool is_very_last = i + 1 == words.size();
-        std::size_t until = is_very_last ? text.size() : characters.byte_of(words[i + 1].range.first);
-        if (until <= begin) until = own_end;
-        const auto part = text.substr(begin, until - begin);
-        const std::string word = plain(part);
-        const bool is_apart = !part.empty() && plain(part.substr(part.size() - 1)).empty();
+        // The word with the signs and the space after it, up to the next word.
+        const std::string part = on_one_line(text.substr(begin_of(i), begin_of(i + 1) - begin_of(i)));
         if (i > first && words[i].time > words[first].time && words[i].time < end)
           vtt += "<" + time_text(words[i].time) + ">";
-        vtt += word + (is_last_in_cue ? "\n" : is_apart ? " " : "");
+        vtt += i == first ? part.substr(std::min(part.find_first_not_of(' '), part.size())) : part;
       }
+      vtt.resize(vtt.find_last_not_of(' ') + 1);
+      vtt += "\n";
     }
     first = last;
   }

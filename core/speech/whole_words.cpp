@@ -9,12 +9,15 @@ namespace semblante {
 
 void keep_whole_words(Utterance& utterance, std::string_view text) {
   const Characters characters(text);
-  TextRange before;
+  for (SpokenWord& word : utterance.words) {
+    word.range.first = std::min(word.range.first, characters.count());
+    word.range.count = std::min(word.range.count, characters.count() - word.range.first);
+  }
+  std::size_t end = 0;
   std::erase_if(utterance.words, [&](const SpokenWord& word) {
     const TextRange& range = word.range;
-    const bool is_part = range.first > before.first && range.first < before.first + before.count;
-    if (is_part || has_signs_alone(characters.of(range))) return true;
-    before = range;
+    if (range.count == 0 || range.first < end || has_signs_alone(characters.of(range))) return true;
+    end = range.first + range.count;
     return false;
   });
 }

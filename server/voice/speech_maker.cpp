@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "core/speech/alignment.h"
@@ -105,7 +106,6 @@ Result<Spoken> spoken(const VoiceProgram& program, const SpeechRequest& request,
   if (!utterance) return utterance.error();
   if (wish.ssml) place_in_text(ssml, *utterance);
   said.utterance = *std::move(utterance);
-  keep_whole_words(said.utterance, said.marked.text);
   return said;
 }
 
@@ -150,10 +150,11 @@ std::string hear(const SaidRequest& request, Recording sound, Speech& speech) {
   return {};
 }
 
-SpeechOptions face_of(const SpeechRequest& request) {
-  SpeechOptions face = request.face;
-  face.language = request.voice.language;
-  return face;
+/// Makes the face of a speech that has all else, and leaves out what is no word of its text, whoever named it.
+void add_face(Speech& speech, std::span<const EmotionSpan> emotions, SpeechOptions face) {
+  keep_whole_words(speech.utterance, speech.text);
+  face.language = speech.sounds;
+  speech.performance = speech_performance(speech.utterance, emotions, face);
 }
 
 }  // namespace
@@ -180,7 +181,7 @@ Result<Speech> make_speech(const VoiceProgram& program, const SpeechRequest& giv
       with_silence(std::move(said->utterance), speech_lead_ms, parts.rest.empty() ? speech_tail_ms : 0.0);
   speech.sounds = request->voice.language;
   if (!has_sound_table(speech.sounds)) speech.warnings.push_back(no_table_warning(speech.sounds));
-  speech.performance = speech_performance(speech.utterance, said->marked.emotions, face_of(*request));
+  add_face(speech, said->marked.emotions, request->face);
   return speech;
 }
 
@@ -213,9 +214,9 @@ Result<SpeechPart> SpeechParts::next(const std::function<bool()>& wanted) {
   // The silence before and after the part is time in which the face gets ready and comes to rest.
   Speech seen;
   seen.utterance = with_silence(std::move(said->utterance), first_ ? speech_lead_ms : part.lead, speech_tail_ms);
-  seen.performance = speech_performance(seen.utterance, said->marked.emotions, face_of(request_));
   seen.text = std::move(said->marked.text);
   seen.sounds = request_.voice.language;
+  add_face(seen, said->marked.emotions, request_.face);
   part.texts = speech_texts(seen);
   part.face = std::move(seen.performance);
   request_.voice.text = std::move(parts.rest);
@@ -253,9 +254,7 @@ Result<Speech> make_speech(const TimelineRequest& request) {
     speech.warnings.push_back(std::to_string(missing) + " of " + std::to_string(timeline->words.size()) +
                               " words of the timeline are not in the text");
   if (timeline->words.empty()) speech.warnings.emplace_back("the timeline has no words: there are no captions");
-  SpeechOptions face = request.face;
-  face.language = speech.sounds;
-  speech.performance = speech_performance(speech.utterance, marked.emotions, face);
+  add_face(speech, marked.emotions, request.face);
   return speech;
 }
 
@@ -289,9 +288,7 @@ Result<Speech> make_speech(const VoiceProgram& voice, const SaidRequest& request
   }
   add_whole(marked, request.expression, request.intensity);
   speech.text = std::move(marked.text);
-  SpeechOptions face = request.face;
-  face.language = speech.sounds;
-  speech.performance = speech_performance(speech.utterance, marked.emotions, face);
+  add_face(speech, marked.emotions, request.face);
   return speech;
 }
 

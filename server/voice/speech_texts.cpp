@@ -31,11 +31,7 @@ struct Place {
 
 std::vector<Place> places_of(const Utterance& utterance, const Characters& characters) {
   std::vector<Place> places;
-  for (const SpokenWord& word : utterance.words) {
-    const std::size_t byte = characters.byte_of(word.range.first);
-    // A voice may name a word twice, or one before it.
-    if (places.empty() || byte > places.back().byte) places.push_back({byte, word.time});
-  }
+  for (const SpokenWord& word : utterance.words) places.push_back({characters.byte_of(word.range.first), word.time});
   return places;
 }
 
@@ -58,12 +54,6 @@ std::vector<std::size_t> parts_of(const Speech& speech, const std::vector<Place>
     if (begins || end - places[parts.back()].byte > longest_part) parts.push_back(i);
   }
   return parts;
-}
-
-/// A word with the quotation mark or bracket before it.
-std::size_t with_opening(std::string_view text, std::size_t byte) {
-  while (byte > 0 && std::string_view("\"'([").find(text[byte - 1]) != std::string_view::npos) --byte;
-  return byte;
 }
 
 std::uint8_t viseme_of(const Segment& segment) {

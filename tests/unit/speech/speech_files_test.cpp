@@ -9,13 +9,22 @@
 namespace semblante {
 namespace {
 
-/// Voices say a number in parts, of which the first may claim all of it.
-TEST(WebVtt, NumberThatIsSaidInParts_IsWrittenOnce) {
+TEST(WebVtt, WordsWithoutSpaceBetween_AreJoined) {
   Utterance said;
   said.duration = 2000;
-  said.words = {{100, {0, 3}}, {500, {1, 2}}, {900, {4, 6}}};
+  said.words = {{100, {0, 1}}, {500, {1, 2}}, {900, {4, 6}}};
   EXPECT_EQ(web_vtt(said, "3,5 metros"),
             "WEBVTT\n\n00:00:00.100 --> 00:00:01.900\n3<00:00:00.500>,5 <00:00:00.900>metros\n");
+}
+
+TEST(WebVtt, QuotationMarksAndBrackets_StandBeforeTheirWords) {
+  Utterance said;
+  said.duration = 3000;
+  said.words = {{100, {2, 3}}, {900, {10, 3}}, {1500, {15, 1}}};
+  said.sentences = {{100, 0}, {900, 8}};
+  EXPECT_EQ(web_vtt(said, "¡“Olá!”\n \t“Sim (é)”."),
+            "WEBVTT\n\n00:00:00.100 --> 00:00:00.900\n¡“Olá!”\n\n"
+            "00:00:00.900 --> 00:00:02.500\n“Sim <00:00:01.500>(é)”.\n");
 }
 
 TEST(WebVtt, HasEachWordWithItsTime_ASentenceACue_AndNoMarkup) {
@@ -48,6 +57,23 @@ TEST(WholeWords, SignsAloneAndPartsOfWords_AreNone) {
   for (const auto& word : said.words) places.push_back(word.range.first);
   EXPECT_EQ(places, (std::vector<std::size_t>{0, 5, 9, 12, 15, 20}));
   EXPECT_EQ(web_vtt(said, text).find("-->", 40), std::string::npos) << "one cue";
+}
+
+/// A number that is said in parts, of which the first claims all of it; a word that is named again, and one that is not
+/// there.
+TEST(WholeWords, OverlapAndOrder) {
+  const std::string text = "3,5 metros e meio";
+  Utterance said;
+  said.duration = 2000;
+  said.words = {{0, {0, 3}},    {100, {1, 2}}, {200, {4, 6}},  {300, {4, 6}},    {350, {11, 0}},
+                {400, {11, 1}}, {500, {0, 3}}, {600, {40, 2}}, {700, {13, 999}}, {800, {15, 2}}};
+  keep_whole_words(said, text);
+  std::vector<double> times;
+  for (const auto& word : said.words) times.push_back(word.time);
+  EXPECT_EQ(times, (std::vector<double>{0, 200, 400, 700}));
+  EXPECT_EQ(web_vtt(said, text),
+            "WEBVTT\n\n00:00:00.000 --> 00:00:01.700\n3,5 <00:00:00.200>metros <00:00:00.400>e "
+            "<00:00:00.700>meio\n");
 }
 
 TEST(WholeWords, SmileysNumbersAndUnits_AreWords) {
