@@ -4,6 +4,8 @@ import { cuesOf, type Cue } from './cues.ts';
 
 /** Cues that are kept; a text of the stream has at most some thirty. */
 const mostKept = 200;
+/** ms by which the time does not go back: sound that begins again after a gap may be this much behind the picture. */
+const mostBack = 2000;
 
 /**
  * What a stream says, as captions: asks for the texts, and tells which words belong to the picture that is shown.
@@ -19,6 +21,8 @@ export class StreamCaptions extends Emitter<{ cue: Cue | null }> {
   cue: Cue | null = null;
 
   private cues: Cue[] = [];
+  /** The latest that was shown. */
+  private time = NaN;
   private newest = 0;
   private epoch = NaN;
   private readonly stops: (() => void)[];
@@ -54,7 +58,10 @@ export class StreamCaptions extends Emitter<{ cue: Cue | null }> {
 
   /** To call with each picture. */
   update(): void {
-    const time = this.isOn ? this.shown() : NaN;
+    const now = this.isOn ? this.shown() : NaN;
+    // Words that were replaced do not come again.
+    if (!(now < this.time && now > this.time - mostBack)) this.time = now;
+    const { time } = this;
     const cue = this.cues.filter(({ begin, end }) => begin <= time && time < end).at(-1) ?? null;
     if (cue === this.cue) return;
     this.cue = cue;
@@ -72,6 +79,7 @@ export class StreamCaptions extends Emitter<{ cue: Cue | null }> {
 
   private takeEpoch(epoch: number): void {
     if (epoch !== this.epoch) {
+      this.time = NaN;
       this.clear(); // other texts, with numbers and times of their own
       this.newest = 0;
     }

@@ -98,6 +98,17 @@ describe('StreamCaptions', () => {
     expect(at(11_000)).toBe(null);
   });
 
+  it('Words that were replaced do not come again when the sound begins behind the picture', () => {
+    const { client, at } = shows();
+    client.give(said('Good day.'));
+    client.give(said('How are you?', { speech: 2, mediaTime: 11_000 }));
+    expect(at(11_000)).toBe('How are you?');
+    expect(at(10_800)).toBe('How are you?');
+    expect(at(11_100)).toBe('How are you?');
+    expect(at(8_000)).toBe(null); // another place of the stream
+    expect(at(10_000)).toBe('Good day.');
+  });
+
   it('Texts that come again after a new connection are known', () => {
     const { client, at, told } = shows();
     client.give(said('Good day.'));
