@@ -1,9 +1,11 @@
-// From a moment of a microphone's sound to its mouth in a page: ms, in Chromium with a microphone that says a tone. What
-// microphone, system and screen take is not in it.
+// From a moment of a microphone's sound to its mouth in a page: ms, in Chromium with a microphone that says a tone, to the weights
+// and to the display frame that draws them; then the work of the WebAssembly for a block, in Node. What microphone, system
+// and screen take is not in it.
 //   node bench_delay.mjs BUILD
-import { readFileSync } from 'node:fs';
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { createServer } from 'node:http';
-import { join } from 'node:path';
+import { tmpdir } from 'node:os';
+import { dirname, join } from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 
 const root = fileURLToPath(new URL('../../..', import.meta.url));
@@ -32,19 +34,61 @@ const browser = await chromium.launch({
 });
 const page = await browser.newPage();
 await page.goto(`http://127.0.0.1:${server.address().port}/`);
-const { delays, sampleRate } = await page.evaluate(async () => {
+const { delays, drawn, frames, sampleRate } = await page.evaluate(async () => {
   const { Microphone } = await import('/listen.js');
   const found = [];
+  // From each moment to the next display frame after its weights; between display frames.
+  const drawn = [];
+  const frames = [];
+  let moments = []; // when they were said, by the page's clock
+  let before = NaN;
+  const frame = () => {
+    const now = performance.now();
+    frames.push(now - before);
+    for (const moment of moments) drawn.push(now - moment);
+    moments = [];
+    before = now;
+    requestAnimationFrame(frame);
+  };
   const microphone = await Microphone.open(
     { library: async () => (await fetch('/semblante_listen.wasm')).arrayBuffer(), worklet: '/listen_worklet.js' },
-    ({ delay }) => found.push(delay),
+    ({ delay }) => {
+      found.push(delay);
+      moments.push(performance.now() - delay);
+    },
   );
+  await new Promise((wake) => setTimeout(wake, 1_000));
+  requestAnimationFrame(frame);
   await new Promise((wake) => setTimeout(wake, 12_000));
   microphone.close();
-  return { delays: found.slice(100), sampleRate: new AudioContext().sampleRate };
+  return { delays: found.slice(100), drawn: drawn.slice(150), frames: frames.slice(30), sampleRate: new AudioContext().sampleRate };
 });
 await browser.close();
 server.close();
-delays.sort((a, b) => a - b);
-const at = (share) => delays[Math.floor((delays.length - 1) * share)].toFixed(1);
-console.log(`${delays.length} mouths at ${sampleRate} Hz: least ${at(0)}, median ${at(0.5)}, nine in ten ${at(0.9)}, 99 in 100 ${at(0.99)} ms`);
+const line = (of, digits = 1) => {
+  of.sort((a, b) => a - b);
+  const at = (share) => of[Math.round((of.length - 1) * share)].toFixed(digits);
+  return `median ${at(0.5)}, 95 in 100 ${at(0.95)}, 99 in 100 ${at(0.99)}, most ${at(1)} ms`;
+};
+console.log(`to the weights: ${delays.length} at ${sampleRate} Hz: ${line(delays)}`);
+console.log(`to the display frame: ${drawn.length}: ${line(drawn)}; between display frames: ${line(frames)}`);
+
+const file = join(mkdtempSync(join(tmpdir(), 'semblante-delay-')), 'listener.mjs');
+writeFileSync(file, await bundled('listener.ts'));
+const { Listener } = await import(pathToFileURL(file).href);
+rmSync(dirname(file), { recursive: true });
+const rate = 48_000;
+const block = 128;
+const seconds = 60;
+const listener = new Listener(new WebAssembly.Module(readFileSync(join(build, 'wasm/semblante_listen.wasm'))), rate);
+const work = [];
+let total = 0;
+for (let n = 0; n < (seconds * rate) / block; n += 1) {
+  const sound = Float32Array.from({ length: block }, (_, i) => 0.2 * (Math.random() - 0.5) * Math.max(0, Math.sin((6 * Math.PI * (n * block + i)) / rate)));
+  const begin = performance.now();
+  listener.push(sound, () => undefined);
+  const took = performance.now() - begin;
+  total += took;
+  work.push(took);
+}
+console.log(`work for a block of ${block} samples (${((1000 * block) / rate).toFixed(2)} ms), WebAssembly: ${line(work, 4)}; ${((0.1 * total) / seconds).toFixed(2)} % of the time of the sound`);

@@ -168,6 +168,34 @@ TEST(VisemeListener, SamplesThatAreNoNumbers_AreSilence) {
   for (const Heard& one : heard_in(sound, 16'000, 100)) EXPECT_TRUE(std::isfinite(one.level + one.probability[3]));
 }
 
+/// From a moment of the sound to the display frame with its mouth: what is waited for, a block of Web Audio, the
+/// mouth's own smoothing, and a frame of a screen with 60 a second. What microphone, system and screen take is not in
+/// it.
+TEST(LiveMouth, IsWithin80MsOfTheMicrophone) {
+  constexpr std::uint32_t rate = 48'000;
+  constexpr double goal = 80.0, block = 1000.0 * 128.0 / rate, frame = 1000.0 / 60.0;
+  const auto sound = syllables(rate);
+  VisemeListener listener(rate);
+  std::size_t taken = 0, pushed = 0;
+  double waited = 0.0;
+  while (const auto heard = listener.push(std::span(sound).subspan(pushed), taken)) {
+    pushed += taken;
+    waited = std::max(waited, 1000.0 * static_cast<double>(pushed) / rate - heard->time);
+  }
+  EXPECT_NEAR(waited, VisemeListener::delay_ms, 0.1);
+  Heard vowel{}, rest{}, lips{};
+  vowel.probability[a] = lips.probability[1] = rest.probability[sil] = 1.0F;
+  LiveMouth mouth;
+  for (int n = 0; n < 30; ++n) mouth.follow(rest);
+  double smoothed = 0.0;  // the mean delay of a step
+  for (int n = 0; n < 30; ++n)
+    smoothed += VisemeListener::step_ms * (1.0 - static_cast<double>(mouth.follow(vowel)[a]));
+  EXPECT_NEAR(smoothed, LiveMouth::delay_ms, 0.1);
+  EXPECT_GT(mouth.follow(lips)[1], 0.5F) << "lips close with their first frame";
+  EXPECT_LE(waited + block + frame, goal) << "lips, at most";
+  EXPECT_LE(waited + 0.5 * block + smoothed + 0.5 * frame, goal) << "opening, in the mean";
+}
+
 TEST(LiveMouth, ClosesAtOnceAndOpensByLoudness) {
   LiveMouth mouth;
   Heard vowel{}, lips{}, rest{};
