@@ -225,10 +225,30 @@ describe('influence', () => {
       await page.locator(`[data-mode=${mode}]`).tap();
       expect(await page.evaluate(() => document.documentElement.scrollWidth - innerWidth)).toBe(0);
     }
+    // The units have their names alone, which leaves the small face to be seen; nearer there is room for their values.
+    await page.locator('#units-view').tap();
+    await studio.drawn(2);
+    expect(Math.max(...(await widthsOfUnits(studio)))).toBeLessThan(70);
+    await page.locator('canvas.canvas').press('f');
+    for (let press = 0; press < 8; press += 1) await page.locator('canvas.canvas').press('+');
+    await eventually('the labels have values', async () => Math.min(...(await widthsOfUnits(studio))) > 70);
     expect(studio.errors).toEqual([]);
     await studio.close();
   });
 });
+
+/** Widths of the labels of the units, pixels, as they were drawn last. */
+const widthsOfUnits = ({ page }: StudioPage): Promise<number[]> =>
+  page.evaluate(() => {
+    const { scene } = (window as unknown as WithUnits).semblante;
+    const pixels = document.querySelector('canvas.canvas')!.clientHeight / (2 * Math.tan((scene.stage.camera.fov * Math.PI) / 360));
+    return scene.stage.scene.getObjectsByProperty('isSprite', true).map(({ scale }) => scale.x * pixels);
+  });
+interface WithUnits {
+  semblante: {
+    scene: { stage: { camera: { fov: number }; scene: { getObjectsByProperty(name: string, value: boolean): { scale: { x: number } }[] } } };
+  };
+}
 
 describe('units', () => {
   test('Units_ByHand_AreStoredDrawnAndTakenBack', async () => {
@@ -239,6 +259,7 @@ describe('units', () => {
     const before = await studio.pictureAtRest();
     await page.locator('#units-view').check();
     await studio.pictureUnlike(before, [0.25, 0.2, 0.5, 0.6], 0.2);
+    expect(Math.min(...(await widthsOfUnits(studio)))).toBeGreaterThan(70);
 
     const rig = async (): Promise<Record<string, number>> =>
       ((await (await fetch(`${server.url}/v1/models/sample/rig.json`)).json()) as { fapu: Record<string, number> }).fapu;

@@ -24,7 +24,7 @@ const length = (a: Vector): number => Math.hypot(...a);
 const angle = (a: Vector, b: Vector): number => Math.acos(Math.min(1, a.reduce((sum, x, axis) => sum + x * b[axis]!, 0) / (length(a) * length(b))));
 const apart = (a: Vector, b: Vector): number => length(a.map((x, axis) => x - b[axis]!) as Vector);
 
-test('Phone_Fingers_OneTurnsTheHeadAndTwoMoveIt', async () => {
+test('Phone_Fingers_OneTurnsTheHeadTwoMoveItAndADoubleTapGoesNearer', async () => {
   const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { ...phone, coarse: true });
   const { page } = studio;
   await studio.waitForStage('ready');
@@ -56,6 +56,10 @@ test('Phone_Fingers_OneTurnsTheHeadAndTwoMoveIt', async () => {
   const moved = await cameraOf(studio);
   expect(apart(turned.target, moved.target) / length(first.arm), 'two fingers move').toBeGreaterThan(0.02);
   expect(angle(turned.arm, moved.arm), 'and do not turn').toBeLessThan(0.01);
+  for (let tap = 0; tap < 2; tap += 1) await page.touchscreen.tap(middle.x, middle.y);
+  await studio.drawn(60);
+  expect(length((await cameraOf(studio)).arm) / length(moved.arm), 'a double tap goes nearer').toBeLessThan(0.6);
+  expect(await page.getByRole('button', { name: 'Keys' }).count(), 'fingers need no sheet of keys').toBe(0);
   expect(studio.errors).toEqual([]);
   await studio.close();
 });

@@ -2,11 +2,11 @@ import { readdirSync, readFileSync } from 'node:fs';
 import { join, relative } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import ts from 'typescript';
-import { expressions, faps, featurePointNames } from '@protocol/generated/mpeg4.ts';
+import { expressions, faps, featurePointNames, visemes } from '@protocol/generated/mpeg4.ts';
 import { expect, test } from 'vitest';
 import { capital, fapTitle } from '../src/ui/shared/names.ts';
 import { portuguese } from '../src/words/portuguese.ts';
-import { portugueseNames } from '../src/words/portuguese_names.ts';
+import { portugueseNames, portugueseVisemeWords } from '../src/words/portuguese_names.ts';
 import { portugueseProblems } from '../src/words/portuguese_problems.ts';
 import { languageOf, t } from '../src/words/words.ts';
 
@@ -95,6 +95,13 @@ test('Words_NamesOfTheStandard_AllHaveATranslation', () => {
     ...expressions.slice(1).flatMap(({ name, description }) => [capital(name), description]),
   ];
   expect(names.filter((name) => portugueseNames[name] === undefined)).toEqual([]);
+});
+
+test('Words_Visemes_HaveWordsOfTheirOwnButForSoundsThatTheLanguageLacks', () => {
+  expect(Object.keys(portugueseVisemeWords)).toEqual(visemes.map(({ name }) => name));
+  const english = visemes.filter(({ name, examples }) => examples.some((word) => portugueseVisemeWords[name]!.includes(word)));
+  expect(english.map(({ name }) => name)).toEqual(['th']);
+  for (const { name, phonemes } of visemes) expect(portugueseVisemeWords[name]!.length > 0, name).toBe(phonemes.length > 0);
 });
 
 test('Words_ProblemsOfTheServer_AllHaveATitle', () => {

@@ -13,30 +13,36 @@ import {
 import { fieldOfView } from '@client/gpu/studio_look.ts';
 import type { Pose } from '@client/kernel.ts';
 
-/** A length on the face with its words. A line without words has no label. */
+/** A length on the face with its name and value. A line without a name has no label. */
 export interface LabelledLine {
   from: readonly [number, number, number];
   to: readonly [number, number, number];
-  words: string;
+  name: string;
+  value: string;
   /** Where the label is, as seen from in front. */
   side: 'above' | 'below' | 'beside';
 }
 
 const labelHeight = 22; // CSS pixels
+/** Thickness of the lines, as a share of the longest. */
+const thicknessShare = 0.014;
+/** Pixels of the longest line from which the labels tell the values too: on a smaller face they would cover it. */
+const leastForValues = 80;
 const ink = '#1d1a18';
 const paper = '#fff7e8';
 
 /**
  * Lines with labels on the neutral face, which turn with the head and are seen through it. Labels keep their size on the
- * screen.
+ * screen; on a face that is small there they have the names alone.
  */
 export class UnitLines {
   readonly object = new Group();
   private readonly turn = new Quaternion();
   private readonly pivot = new Vector3();
 
-  /** `thickness` of a line, model units. */
-  constructor(lines: readonly LabelledLine[], thickness: number) {
+  constructor(lines: readonly LabelledLine[]) {
+    const longest = Math.max(...lines.map(({ from, to }) => Math.hypot(to[0] - from[0], to[1] - from[1], to[2] - from[2])), 0);
+    const thickness = longest * thicknessShare;
     for (const line of lines) {
       const from = new Vector3(...line.from);
       const to = new Vector3(...line.to);
@@ -60,7 +66,7 @@ export class UnitLines {
           this.object.add(tick);
         }
       }
-      if (line.words !== '') this.object.add(label(line, from.clone().lerp(to, 0.5)));
+      if (line.name !== '') this.object.add(new Label(line, from.clone().lerp(to, 0.5), longest));
     }
   }
 
@@ -75,16 +81,59 @@ export class UnitLines {
   dispose(): void {
     this.object.removeFromParent();
     this.object.traverse((one) => {
-      if (one instanceof Sprite) one.material.map?.dispose();
-      if (one instanceof Mesh || one instanceof Sprite) {
+      if (one instanceof Label) one.dispose();
+      else if (one instanceof Mesh) {
         one.geometry.dispose();
-        (one.material as MeshBasicMaterial | SpriteMaterial).dispose();
+        (one.material as MeshBasicMaterial).dispose();
       }
     });
   }
 }
 
-function label({ words, side }: LabelledLine, place: Vector3): Sprite {
+class Label extends Sprite {
+  private readonly brief: Picture;
+  private readonly full: Picture;
+
+  /** `longest` of all lines, model units. */
+  constructor({ name, value, side }: LabelledLine, place: Vector3, longest: number) {
+    const [brief, full] = [draw(name, side), draw(`${name} ${value}`, side)];
+    super(new SpriteMaterial({ map: full.map, depthTest: false, transparent: true, sizeAttenuation: false, toneMapped: false }));
+    this.brief = brief;
+    this.full = full;
+    this.center.set(side === 'beside' ? 0 : 0.5, side === 'beside' ? 0.5 : side === 'above' ? 0 : 1);
+    this.position.copy(place);
+    this.renderOrder = 30;
+    const reach = 2 * Math.tan((fieldOfView * Math.PI) / 360);
+    this.onBeforeRender = (renderer, _, camera) => {
+      const pixel = reach / Math.max(renderer.domElement.clientHeight, 1);
+      const eye = camera.matrixWorldInverse.elements;
+      const at = this.matrixWorld.elements;
+      const depth = -(eye[2]! * at[12]! + eye[6]! * at[13]! + eye[10]! * at[14]! + eye[14]!);
+      const { map, width, height } = longest >= leastForValues * pixel * depth ? this.full : this.brief;
+      if (this.scale.y === pixel * height && this.material.map === map) return;
+      this.material.map = map;
+      this.scale.set(pixel * width, pixel * height, 1);
+      this.updateMatrixWorld();
+      this.modelViewMatrix.multiplyMatrices(camera.matrixWorldInverse, this.matrixWorld);
+    };
+  }
+
+  override dispose(): void {
+    for (const { map } of [this.brief, this.full]) map.dispose();
+    this.geometry.dispose();
+    this.material.dispose();
+  }
+}
+
+/** The picture of a label. */
+interface Picture {
+  map: CanvasTexture;
+  /** CSS pixels. */
+  width: number;
+  height: number;
+}
+
+function draw(words: string, side: LabelledLine['side']): Picture {
   const scale = 3; // pixels of the texture for each on the screen
   const canvas = document.createElement('canvas');
   const context = canvas.getContext('2d')!;
@@ -109,19 +158,5 @@ function label({ words, side }: LabelledLine, place: Vector3): Sprite {
   context.fillText(words, (side === 'beside' ? gap : 0) + 8, (side === 'below' ? gap : 0) + labelHeight / 2 + 0.5);
   const map = new CanvasTexture(canvas);
   map.colorSpace = SRGBColorSpace;
-  const sprite = new Sprite(
-    new SpriteMaterial({ map, depthTest: false, transparent: true, sizeAttenuation: false, toneMapped: false }),
-  );
-  sprite.center.set(side === 'beside' ? 0 : 0.5, side === 'beside' ? 0.5 : side === 'above' ? 0 : 1);
-  sprite.position.copy(place);
-  sprite.renderOrder = 30;
-  const reach = 2 * Math.tan((fieldOfView * Math.PI) / 360);
-  sprite.onBeforeRender = (renderer, _, camera) => {
-    const pixel = reach / Math.max(renderer.domElement.clientHeight, 1);
-    if (sprite.scale.y === pixel * height) return;
-    sprite.scale.set(pixel * width, pixel * height, 1);
-    sprite.updateMatrixWorld();
-    sprite.modelViewMatrix.multiplyMatrices(camera.matrixWorldInverse, sprite.matrixWorld);
-  };
-  return sprite;
+  return { map, width, height };
 }

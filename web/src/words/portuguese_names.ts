@@ -186,3 +186,22 @@ export const portugueseNames: Readonly<Record<string, string>> = {
   'Unused vertices': 'Vértices sem uso',
   'Upside down': 'De cabeça para baixo',
 };
+
+/** Words with the sounds of each viseme in Brazilian Portuguese, by its name. The language has no `th`: its words stay English. */
+export const portugueseVisemeWords: Readonly<Record<string, readonly string[]>> = {
+  sil: [],
+  p_b_m: ['pato', 'bola', 'mala'],
+  f_v: ['faca', 'vaca'],
+  th: ['think', 'that'],
+  t_d: ['tatu', 'dado'],
+  k_g: ['casa', 'gato'],
+  ch_j_sh: ['tchau', 'dia', 'chave'],
+  s_z: ['sapo', 'zebra'],
+  n_l: ['nada', 'lata'],
+  r: ['caro'],
+  a: ['pá'],
+  e: ['mesa'],
+  i: ['vida'],
+  o: ['pó'],
+  u: ['uva'],
+};

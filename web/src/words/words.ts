@@ -15,7 +15,7 @@ export const language = chosenLanguage() ?? languageOf(globalThis.navigator?.lan
 const table: Readonly<Record<Text, string>> | null =
   language === 'pt-BR' ? (await import('./portuguese.ts')).portuguese : null;
 const problems = language === 'pt-BR' ? (await import('./portuguese_problems.ts')).portugueseProblems : null;
-const names = language === 'pt-BR' ? (await import('./portuguese_names.ts')).portugueseNames : null;
+const standard = language === 'pt-BR' ? await import('./portuguese_names.ts') : null;
 
 /** A text in the language of the page, with its `{names}` replaced by values. */
 export function t(text: Text, values: Readonly<Record<string, string | number>> = {}): string {
@@ -27,7 +27,10 @@ const shown = (value: string | number): string =>
   typeof value === 'number' ? value.toLocaleString(language, { useGrouping: false, maximumFractionDigits: 20 }) : value;
 
 /** A name of the standard's tables, or the title of a finding, in the language of the page. */
-export const nameOf = (english: string): string => names?.[english] ?? english;
+export const nameOf = (english: string): string => standard?.portugueseNames[english] ?? english;
+
+/** Words with the sounds of a viseme in the language of the page; `english` are the standard's. */
+export const visemeWords = (name: string, english: readonly string[]): readonly string[] => standard?.portugueseVisemeWords[name] ?? english;
 
 /** The title of a kind of the server's problems (the end of its `type`) in the language of the page; null: it stays as the server wrote it. */
 export const problemTitle = (slug: string): string | null => problems?.[slug] ?? null;

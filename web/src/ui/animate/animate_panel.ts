@@ -16,7 +16,7 @@ import { FapSliders, fapsWithoutEffect } from './fap_sliders.ts';
 import { icon } from '../shared/icons.ts';
 import { canIdle, setIdle } from '../shared/idle.ts';
 import { messageOf } from '../shared/message_of.ts';
-import { capital } from '../shared/names.ts';
+import { capital, visemeTitle } from '../shared/names.ts';
 import { rove } from '../shared/roving.ts';
 import { Slider } from '../shared/slider.ts';
 import type { Toasts } from '../shared/toast.ts';
@@ -76,11 +76,7 @@ export class AnimatePanel {
       'select',
       { id: 'second-viseme', on: { change: () => this.applyViseme() } },
       ...visemes.map((viseme, number) =>
-        h(
-          'option',
-          { value: number },
-          number === 0 ? t('Silence') : `${viseme.phonemes.join(' ')} (${viseme.examples[0] ?? viseme.name})`,
-        ),
+        h('option', { value: number }, visemeTitle(viseme)),
       ),
     );
     this.faps = new FapSliders({

@@ -4,7 +4,7 @@ import { h, replace } from '../shared/dom.ts';
 import { formatTime } from '../shared/format.ts';
 import { icon, type IconName } from '../shared/icons.ts';
 import { canIdle, setIdle, type Idle } from '../shared/idle.ts';
-import { capital, fapTitle } from '../shared/names.ts';
+import { capital, fapTitle, visemeTitle } from '../shared/names.ts';
 import { dragCue, type CuePart } from './cue_drag.ts';
 import type { Toasts } from '../shared/toast.ts';
 import { TimelineModel } from './timeline_model.ts';
@@ -322,7 +322,7 @@ export class Timeline {
 function kinds(): HTMLElement[] {
   const group = (label: string, options: HTMLElement[]): HTMLElement => h('optgroup', { label }, options);
   return [
-    group(t('Visemes'), visemes.slice(1).map((viseme, i) => h('option', { value: `viseme-${i + 1}` }, `${viseme.phonemes.join(' ')} (${viseme.examples[0] ?? viseme.name})`))),
+    group(t('Visemes'), visemes.slice(1).map((viseme, i) => h('option', { value: `viseme-${i + 1}` }, visemeTitle(viseme)))),
     group(t('Expressions'), expressions.slice(1).map(({ name }, i) => h('option', { value: `expression-${i + 1}` }, nameOf(capital(name))))),
     group(t('Others'), [h('option', { value: 'blink-0' }, t('Blink'))]),
     group(t('Face parameters'), faps.slice(2).map(({ number, name, group: of }) => h('option', { value: `fap-${number}` }, `${number} ${fapTitle(name, of)}`))),

@@ -1,7 +1,7 @@
 import { visemes } from '@protocol/generated/mpeg4.ts';
 import { h } from '../shared/dom.ts';
 import { rove } from '../shared/roving.ts';
-import { t } from '../../words/words.ts';
+import { t, visemeWords } from '../../words/words.ts';
 
 export interface VisemeGridOptions {
   onChoose: (viseme: number) => void;
@@ -15,7 +15,7 @@ export class VisemeGrid {
   constructor(options: VisemeGridOptions) {
     visemes.forEach((viseme, number) => {
       const sounds = number === 0 ? t('rest') : viseme.phonemes.join(' ');
-      const word = viseme.examples[0] ?? t('silence');
+      const words = visemeWords(viseme.name, viseme.examples);
       const button = h(
         'button',
         {
@@ -23,13 +23,13 @@ export class VisemeGrid {
           class: 'viseme',
           'data-viseme': number,
           'aria-pressed': 'false',
-          title: viseme.examples.join(', '),
+          title: words.join(', '),
           on: { click: () => options.onChoose(number) },
         },
         h('span', { class: 'visually-hidden' }, `${t('Viseme {number}', { number })}: `),
         h('span', { class: 'sound' }, sounds),
         ' ',
-        h('span', { class: 'word' }, word),
+        h('span', { class: 'word' }, words[0] ?? t('silence')),
       );
       this.buttons.push(button);
       this.element.append(button);

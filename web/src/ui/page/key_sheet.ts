@@ -52,7 +52,7 @@ const sheet = (): { place: string; keys: [HTMLElement[], string][] }[] => [
   },
 ];
 
-/** The button that shows what the keys do; `?` does the same anywhere but in a text that is being written. */
+/** The button that shows what the keys do, hidden where fingers are all there is (touch.css); `?` does the same anywhere but in a text that is being written. */
 export function keySheetButton(): HTMLElement {
   document.addEventListener('keydown', (event) => {
     if (event.key !== '?' || event.ctrlKey || event.metaKey || event.altKey) return;
@@ -62,7 +62,7 @@ export function keySheetButton(): HTMLElement {
   });
   return h(
     'button',
-    { type: 'button', class: 'quiet square', 'aria-label': t('Keys'), title: `${t('Keys')} (?)`, on: { click: open } },
+    { type: 'button', class: 'quiet square key-sheet', 'aria-label': t('Keys'), title: `${t('Keys')} (?)`, on: { click: open } },
     icon('keys'),
   );
 }

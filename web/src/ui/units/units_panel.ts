@@ -10,8 +10,6 @@ import type { Studio } from '../shared/studio.ts';
 import type { SceneView } from '../stage/scene.ts';
 import { t } from '../../words/words.ts';
 
-/** Thickness of the lines, as a share of the longest unit. */
-const thickness = 0.014;
 const sides: Record<UnitLine['unit'], LabelledLine['side']> = {
   IRISD: 'beside',
   ES: 'above',
@@ -73,15 +71,12 @@ export class UnitsPanel {
       return;
     }
     const labelled = new Set<string>();
-    const lines = unitLines(rig);
-    const longest = Math.max(...lines.map(({ length }) => length), 0);
     this.scene.units = new UnitLines(
-      lines.map(({ unit, length, from, to }): LabelledLine => {
-        const words = labelled.has(unit) ? '' : `${unit} ${formatNumber(length, 4)}`;
+      unitLines(rig).map(({ unit, length, from, to }): LabelledLine => {
+        const name = labelled.has(unit) ? '' : unit;
         labelled.add(unit);
-        return { from, to, words, side: sides[unit] };
+        return { from, to, name, value: formatNumber(length, 4), side: sides[unit] };
       }),
-      longest * thickness,
     );
   }
 
