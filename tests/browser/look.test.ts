@@ -72,6 +72,7 @@ class Screens {
     const overflow = await page.evaluate(() => [
       document.documentElement.scrollWidth - innerWidth,
       document.documentElement.scrollHeight - innerHeight,
+      ...[...document.querySelectorAll('.panel, .panel-foot, dialog')].map((one) => one.scrollWidth - one.clientWidth).filter((wide) => wide > 0),
     ]);
     expect(overflow, name).toEqual([0, 0]);
     if (all) await this.studio.keep(`screens/${this.look.name}-${name}`);
@@ -171,6 +172,7 @@ describe('look', () => {
       await page.locator('.finding-show').first().click();
       await screens.scroll('findings', '#panel-fit');
       await page.locator('#tab-points').click();
+      expect(await page.locator('#panel-points').evaluate((panel) => panel.scrollTop), 'another head is read from the top').toBe(0);
       await screens.shot('points-none');
       await page.locator('#tab-animate').click();
       await screens.shot('animate-none');
@@ -195,7 +197,7 @@ describe('look', () => {
       const outside = await Screens.open(look, closed.url, /status of 401/);
       await outside.studio.page.getByLabel('Token').fill('smb_wrong_token');
       await outside.studio.page.getByLabel('Token').press('Enter');
-      await outside.studio.page.getByRole('alert').waitFor();
+      await outside.studio.page.getByRole('alert').getByText(look.name.endsWith('pt') ? 'nunca foi criado, ou foi revogado.' : 'not accepted').waitFor();
       await outside.shot('sign-in');
       await outside.close();
 

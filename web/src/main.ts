@@ -246,7 +246,8 @@ function makeScene(canvas: HTMLCanvasElement, api: Api): SceneView {
 function showSelected(studio: Studio, points: PointsModel, scene: SceneView): void {
   studio.tab.watch((tab) => {
     scene.show(tab === 'points' || tab === 'fit' ? 'preview' : 'face');
-    if (tab === 'animate' || tab === 'live') scene.stage.lookBack();
+    // A chosen point has the camera in front of it.
+    if (tab === 'animate' || tab === 'live' || (tab === 'points' && points.chosen.value === null)) scene.stage.lookBack();
   });
   let opened = '';
   studio.selected.watch((model) => {

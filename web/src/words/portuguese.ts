@@ -163,6 +163,7 @@ export const portuguese = {
   'An implausible unit': 'Uma unidade implausível',
   'A unit set by hand': 'Uma unidade definida à mão',
   'A point on the other lip or lid': 'Um ponto no outro lábio ou pálpebra',
+  'The token is not accepted: it was never made, or is revoked.': 'O token não é aceito: nunca foi criado, ou foi revogado.',
   'Jaw and inner lips': 'Mandíbula e parte interna dos lábios',
   Head: 'Cabeça',
   Nose: 'Nariz',

@@ -114,7 +114,7 @@ export const portuguesePoints = {
   'From {leastKnownPoints} placed points on, the others can be proposed.': 'A partir de {leastKnownPoints} pontos colocados, os outros podem ser propostos.',
   Start: 'Começar',
   'Go on: {left} left': 'Continuar: faltam {left}',
-  'Search: 2.1, chin…': 'Buscar: 2.1, queixo…',
+  'Search: 2.1, chin…': 'Busca: 2.1, boca…',
   'Search feature points': 'Buscar pontos característicos',
   'Which points': 'Quais pontos',
   All: 'Todos',

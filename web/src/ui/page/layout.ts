@@ -83,6 +83,11 @@ export function makeLayout(studio: Studio, panels: Panels, stage: readonly HTMLE
     const gone = used?.closest('[role=tabpanel]');
     if ((now === document.body || now === used) && gone instanceof HTMLElement && gone.hidden) buttons.get(studio.tab.value)!.focus({ preventScroll: true });
   };
+  /** Panels that have not been shown since another head was opened. The scroll position of a hidden panel cannot be set. */
+  const unread = new Set<Tab>();
+  const beginAtTop = (): void => {
+    if (unread.delete(studio.tab.value)) panels[studio.tab.value].scrollTop = 0;
+  };
   const show = (): void => {
     for (const { tab } of tabs) {
       const on = studio.tab.value === tab;
@@ -91,6 +96,7 @@ export function makeLayout(studio: Studio, panels: Panels, stage: readonly HTMLE
       button.tabIndex = on ? 0 : -1;
       panels[tab].hidden = tab === 'heads' ? narrow.matches && !on : !on;
     }
+    beginAtTop();
     keepFocus();
   };
   narrow.addEventListener('change', seat);
@@ -98,7 +104,14 @@ export function makeLayout(studio: Studio, panels: Panels, stage: readonly HTMLE
   seat();
 
   const crumb = h('span', { class: 'crumb' });
-  studio.selected.watch((model) => (crumb.textContent = model?.name ?? ''));
+  let open = '';
+  studio.selected.watch((model) => {
+    crumb.textContent = model?.name ?? '';
+    if ((model?.id ?? '') === open) return;
+    open = model?.id ?? '';
+    for (const { tab } of tabs) if (tab !== 'heads') unread.add(tab);
+    beginAtTop();
+  });
   return h(
     'div',
     { class: 'studio' },

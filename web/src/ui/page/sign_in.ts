@@ -1,6 +1,6 @@
 import { problemOf, wordsOf } from '../../net/problem.ts';
 import { getSession, invitedToken, signIn, signOut } from '../../net/session.ts';
-import type { Session } from '../../net/types.ts';
+import type { Problem, Session } from '../../net/types.ts';
 import { forgetKept } from '../../../offline/register.ts';
 import { h } from '../shared/dom.ts';
 import { capital } from '../shared/names.ts';
@@ -24,7 +24,7 @@ export async function letIn(base: string, root: HTMLElement): Promise<Session | 
     const problem = problemOf(error);
     // A server that does not answer is the studio's own message.
     if (problem.status !== 401) return null;
-    reason = wordsOf(problem);
+    reason = refusalOf(problem);
   }
   return askForToken(base, root, reason);
 }
@@ -35,6 +35,9 @@ export function signOutButton(base: string, session: Session | null): HTMLElemen
   const leave = () => void Promise.allSettled([signOut(base), forgetKept()]).then(() => location.reload());
   return h('button', { type: 'button', class: 'quiet sign-out', on: { click: leave } }, t('Sign out'));
 }
+
+const refusalOf = (problem: Problem): string =>
+  problem.status === 401 ? t('The token is not accepted: it was never made, or is revoked.') : capital(wordsOf(problem));
 
 function askForToken(base: string, root: HTMLElement, reason: string): Promise<Session> {
   return new Promise((resolve) => {
@@ -48,7 +51,7 @@ function askForToken(base: string, root: HTMLElement, reason: string): Promise<S
       spellcheck: false,
       'aria-describedby': 'token-fault',
     });
-    const fault = h('p', { id: 'token-fault', class: 'sign-in-fault', role: 'alert' }, capital(reason));
+    const fault = h('p', { id: 'token-fault', class: 'sign-in-fault', role: 'alert' }, reason);
     const button = h('button', { type: 'submit', class: 'primary' }, t('Sign in'));
     const form = h(
       'form',
@@ -62,7 +65,7 @@ function askForToken(base: string, root: HTMLElement, reason: string): Promise<S
               resolve,
               (error: unknown) => {
                 const problem = problemOf(error);
-                fault.textContent = capital(wordsOf(problem));
+                fault.textContent = refusalOf(problem);
                 button.disabled = false;
                 input.select();
               },
