@@ -92,6 +92,7 @@ describe('feature points', () => {
     await page.getByText(`Point 5 of ${quickSet.length}`).waitFor();
     await page.keyboard.press('n');
     await page.getByText(`Point 6 of ${quickSet.length}`).waitFor();
+    expect(await foot.evaluate((element) => element.scrollWidth - element.clientWidth), 'nothing is cut').toBe(0);
     await page.getByRole('button', { name: 'Save 4 changes' }).click();
     await page.getByRole('button', { name: 'Saved' }).waitFor();
     expect(Object.keys(await stored(studio)).sort()).toEqual(['2.2', '8.1', '9.15', '9.3']);

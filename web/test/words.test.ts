@@ -114,6 +114,7 @@ test('Words_ProblemsOfTheServer_AllHaveATitle', () => {
 test('Words_Values_AreFilledIn', () => {
   expect(t('Point {step} of {count}', { step: 3, count: 20 })).toBe('Point 3 of 20');
   expect(t('{name} was deleted.', { name: '{name} $&' })).toBe('{name} $& was deleted.');
+  expect(t('Delete {name}?', { name: 'رأس 2' })).toBe('Delete \u2068رأس 2\u2069?');
 });
 
 test('Words_LanguagesOfABrowser_FirstKnownOneIsTaken', () => {

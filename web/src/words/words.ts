@@ -22,9 +22,16 @@ export function t(text: Text, values: Readonly<Record<string, string | number>> 
   return (table?.[text] ?? text).replace(/\{(\w+)\}/g, (whole, name: string) => shown(values[name] ?? whole));
 }
 
-/** Numbers with the language's decimal sign; who wants digits in groups says so (`formatCount`). */
-const shown = (value: string | number): string =>
-  typeof value === 'number' ? value.toLocaleString(language, { useGrouping: false, maximumFractionDigits: 20 }) : value;
+const fromRightToLeft = /[\u0590-\u08ff\ufb1d-\ufdff\ufe70-\ufefc]/;
+
+/**
+ * Numbers with the language's decimal sign; who wants digits in groups says so (`formatCount`). Names written from right to left
+ * between the characters that isolate them, so that the words around them keep their order.
+ */
+const shown = (value: string | number): string => {
+  if (typeof value === 'number') return value.toLocaleString(language, { useGrouping: false, maximumFractionDigits: 20 });
+  return fromRightToLeft.test(value) ? `\u2068${value}\u2069` : value;
+};
 
 /** A name of the standard's tables, or the title of a finding, in the language of the page. */
 export const nameOf = (english: string): string => standard?.portugueseNames[english] ?? english;

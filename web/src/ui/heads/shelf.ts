@@ -153,7 +153,7 @@ export class Shelf {
         h(
           'span',
           { class: 'head-text' },
-          h('strong', {}, model.name || t('Unnamed')),
+          h('strong', { dir: 'auto' }, model.name || t('Unnamed')),
           activity
             ? h('span', { class: 'muted small' }, activity.title)
             : h(

@@ -103,7 +103,7 @@ export function makeLayout(studio: Studio, panels: Panels, stage: readonly HTMLE
   studio.tab.watch(show);
   seat();
 
-  const crumb = h('span', { class: 'crumb' });
+  const crumb = h('span', { class: 'crumb', dir: 'auto' });
   let open = '';
   studio.selected.watch((model) => {
     crumb.textContent = model?.name ?? '';
