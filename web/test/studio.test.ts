@@ -20,6 +20,11 @@ async function studioWith(...heads: Model[]): Promise<{ studio: Studio; server: 
       return now;
     },
     getModel: (id: string) => Promise.resolve(server.heads.find((one) => one.id === id)),
+    /** Its job has ended when it is answered. */
+    setFrame: (id: string) => {
+      const model = importingModel({ id });
+      return Promise.resolve({ model, job: { id: 'j', state: 'succeeded', progress: 1 } });
+    },
     deleteModel: (id: string) => {
       server.heads = server.heads.filter((one) => one.id !== id);
       return Promise.resolve();
@@ -93,4 +98,19 @@ test('Update_WhileThisPageDeletes_DoesNotBringTheHeadBack', async () => {
   await updating;
   expect(ids(studio)).toEqual(['ana']);
   expect(said).toEqual(['rui was deleted.']);
+});
+
+test('Import_WithFindings_OpensThem_ButWhoTurnsTheHeadStaysAtItsPoints', async () => {
+  const warned = { ...head('ana'), findings: { errors: 0, warnings: 1, notes: 0 } };
+  const { studio, server } = await studioWith(importingModel({ id: 'ana' }));
+  studio.tab.set('points');
+  server.heads = [warned];
+  await studio.update();
+  await Promise.resolve();
+  expect(studio.tab.value).toBe('fit');
+
+  studio.tab.set('points');
+  await studio.setFrame(warned, { up: '+Y', front: '+Z' });
+  expect(studio.selected.value?.state).toBe('ready');
+  expect(studio.tab.value).toBe('points');
 });

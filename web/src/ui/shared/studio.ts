@@ -34,6 +34,8 @@ export class Studio {
   private uploads = 0;
   /** Heads that this page is deleting now. */
   private readonly deleting = new Set<string>();
+  /** Heads that are read again in other axes. */
+  private readonly turning = new Set<string>();
 
   constructor(
     readonly api: Api,
@@ -156,6 +158,7 @@ export class Studio {
 
   /** Sets the unit or the axes of a head; a change of axes imports its file again. */
   async setFrame(model: Model, wish: FrameWish): Promise<void> {
+    this.turning.add(model.id);
     await this.attempt(t('Unit and axes were not changed'), async () => {
       const { model: now, job } = await this.api.setFrame(model.id, wish);
       this.replaceModel(now);
@@ -163,6 +166,7 @@ export class Studio {
       await this.follow(model.id, job, t('Rotating the head'));
       await this.reload(model.id);
     });
+    this.turning.delete(model.id);
   }
 
   async remove(model: Model): Promise<void> {
@@ -288,8 +292,8 @@ export class Studio {
     const open = this.selected.value;
     if (open?.id !== model.id) return;
     this.selected.set(model);
-    // The open head has just been imported: the next step is placing points, unless the file has findings.
-    if (open.state === 'importing' && model.state === 'ready' && this.tab.value !== 'fit')
+    // The open head has just been imported: the next step is placing points, unless the file has findings. Who turned it goes on where it was asked.
+    if (open.state === 'importing' && model.state === 'ready' && this.tab.value !== 'fit' && !this.turning.has(model.id))
       this.tab.set(needsCare(model) ? 'fit' : 'points');
   }
 }
