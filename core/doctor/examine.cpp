@@ -87,9 +87,10 @@ Report examine(const Model& model, const Surface& surface, const Rig& rig, Weigh
                      fit_face_axes(rig.points),
                      find_misplaced_rim_points(surface, surface_points(surface, rig.points))};
   Report report;
-  for (const auto check : {find_wrong_way_round, find_points_on_wrong_surface, find_unit_faults, find_joined_rims,
-                           find_leaks, find_rims_not_neutral, find_points_out_of_order, find_points_off_mirror,
-                           find_idle_parts, find_holes, find_wrong_density, find_missing_points, find_far_reach})
+  for (const auto check :
+       {find_wrong_way_round, find_points_on_wrong_surface, find_points_off_lid_edge, find_unit_faults,
+        find_joined_rims, find_leaks, find_rims_not_neutral, find_points_out_of_order, find_points_off_mirror,
+        find_idle_parts, find_holes, find_wrong_density, find_missing_points, find_far_reach})
     append(report, check(head));
   find_in_mesh(model, surface, rig.parts, mesh, slits_of(head.frame, rig.points), report);
   return errors_first(std::move(report));

@@ -21,6 +21,9 @@ std::vector<Finding> find_points_off_mirror(const Subject& head);
 /// Points on the vertex of another point, on no surface, on a wrong part, or on the inside of a surface.
 std::vector<Finding> find_points_on_wrong_surface(const Subject& head);
 
+/// Points of lids that lie on the fold above (below) the edge of the lid.
+std::vector<Finding> find_points_off_lid_edge(const Subject& head);
+
 /// FAPUs without a value, or with an implausible one.
 std::vector<Finding> find_unit_faults(const Subject& head);
 

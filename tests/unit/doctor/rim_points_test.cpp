@@ -73,6 +73,29 @@ TEST_P(RimPoints, OnTheOtherLipAreMovedBackByTheRemedy) {
   }
 }
 
+TEST_P(RimPoints, OnTheFoldOfALidAreMovedToItsEdgeByTheRemedy) {
+  if (std::string_view(GetParam()) == "mediapipe-canonical") GTEST_SKIP() << "skin covers its eyes";
+  auto head = head_named(GetParam());
+  if (!head) GTEST_SKIP() << "no folder of real heads";
+  EXPECT_EQ(find_code(examine_without_weights(*head), FindingCode::point_off_lid_edge), nullptr);
+  const double open = point(*head, "3.1").position.y - point(*head, "3.3").position.y;
+  if (open < 0.12 * (point(*head, "3.5").position.x - point(*head, "3.6").position.x))
+    GTEST_SKIP() << "its eyes are not open";
+  misplace(*head, "3.1", "3.13");
+  const double on_fold = point(*head, "3.1").position.y;
+  const Report before = examine_without_weights(*head);
+  const Finding* const finding = find_code(before, FindingCode::point_off_lid_edge);
+  ASSERT_NE(finding, nullptr);
+  EXPECT_THAT(finding->words, HasSubstr("3.1 lies on the fold of the upper lid"));
+  ASSERT_TRUE(finding->move);
+  EXPECT_EQ(to_string(finding->move->point), "3.1");
+  EXPECT_LT(finding->move->position.y, on_fold);
+  FeaturePoint& moved = point(*head, "3.1");
+  moved.vertex = finding->move->vertex;
+  moved.position = head->model.positions[moved.vertex->value()];
+  EXPECT_EQ(find_code(examine_without_weights(*head), FindingCode::point_off_lid_edge), nullptr);
+}
+
 INSTANTIATE_TEST_SUITE_P(Heads, RimPoints,
                          ::testing::Values("sample", "pressed lips", "broad", "closed eyes", "ict-facekit", "makehuman",
                                            "mediapipe-canonical"));

@@ -26,6 +26,7 @@ const titles: Record<string, string> = {
   'unit-implausible': t('An implausible unit'),
   'unit-by-hand': t('A unit set by hand'),
   'point-on-other-rim': t('A point on the other lip or lid'),
+  'point-off-lid-edge': t('A point on the fold of a lid'),
 };
 
 /** "lips-joined" -> "Lips joined". */
