@@ -14,6 +14,7 @@ const assets: Record<string, string> = {
   'semblante_view.wasm': `${library}/semblante_view.wasm`,
   'semblante_motion.wasm': `${library}/semblante_motion.wasm`,
   'semblante_listen.wasm': `${library}/semblante_listen.wasm`,
+  'semblante_speak.wasm': `${library}/semblante_speak.wasm`,
   'draco/draco_wasm_wrapper.js': draco + 'draco_wasm_wrapper.js',
   'draco/draco_decoder.wasm': draco + 'draco_decoder.wasm',
   'sample/sample-head.glb': `${sample}/sample-head.glb`,

@@ -160,8 +160,9 @@ std::string page_text(const fs::path& file) {
 
 /// The files that index.html names by src="..." and href="..." within the web root, and those that scripts fetch.
 std::vector<std::string> files_of_studio(const std::string& page) {
-  std::vector<std::string> names = {"semblante_view.wasm",      "semblante_motion.wasm",       "semblante_listen.wasm",
-                                    "draco/draco_decoder.wasm", "draco/draco_wasm_wrapper.js", "listen_worklet.js"};
+  std::vector<std::string> names = {"semblante_view.wasm",  "semblante_motion.wasm",    "semblante_listen.wasm",
+                                    "semblante_speak.wasm", "draco/draco_decoder.wasm", "draco/draco_wasm_wrapper.js",
+                                    "listen_worklet.js"};
   for (const std::string_view attribute : {"src=\"", "href=\""})
     for (auto at = page.find(attribute); at != std::string::npos; at = page.find(attribute, at + 1)) {
       const auto begin = at + attribute.size();

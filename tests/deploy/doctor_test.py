@@ -28,7 +28,7 @@ class Doctor(unittest.TestCase):
         (self.web / "assets").mkdir(parents=True)
         (self.web / "draco").mkdir()
         (self.web / "index.html").write_text('<script src="./assets/index.js"></script><a href="https://example.org/">x</a>')
-        for name in ("assets/index.js", "semblante_view.wasm", "semblante_motion.wasm", "semblante_listen.wasm", "draco/draco_decoder.wasm", "draco/draco_wasm_wrapper.js",
+        for name in ("assets/index.js", "semblante_view.wasm", "semblante_motion.wasm", "semblante_listen.wasm", "semblante_speak.wasm", "draco/draco_decoder.wasm", "draco/draco_wasm_wrapper.js",
                      "listen_worklet.js"):
             (self.web / name).write_text("x")
 

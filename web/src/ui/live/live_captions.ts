@@ -1,6 +1,7 @@
 import type { CaptionsBox, StreamCaptions } from '@client/captions/index.ts';
 import type { PlayoutStats } from '@client/index.ts';
 import { captionsAreChosen, chooseCaptions } from '../../../kept/captions_choice.ts';
+import { prepareTexts } from '../../face/runtime.ts';
 import { h } from '../shared/dom.ts';
 import { Signal } from '../shared/signal.ts';
 import type { FaceDriver } from '../stage/face_driver.ts';
@@ -34,7 +35,7 @@ export class LiveCaptions {
     this.captions = null;
     if (!wanted) return;
     // Fetched by those who read.
-    const { CaptionsBox, captionsStyle, StreamCaptions } = await import('@client/captions/index.ts');
+    const [{ CaptionsBox, captionsStyle, StreamCaptions }] = await Promise.all([import('@client/captions/index.ts'), prepareTexts().catch(() => undefined)]);
     if (number !== this.newest) return;
     if (!this.box) {
       const style = new CSSStyleSheet();
