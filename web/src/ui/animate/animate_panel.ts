@@ -16,11 +16,12 @@ import { FapSliders, fapsWithoutEffect } from './fap_sliders.ts';
 import { icon } from '../shared/icons.ts';
 import { canIdle, setIdle } from '../shared/idle.ts';
 import { messageOf } from '../shared/message_of.ts';
-import { capital, visemeTitle } from '../shared/names.ts';
+import { capital } from '../shared/names.ts';
 import { rove } from '../shared/roving.ts';
 import { Slider } from '../shared/slider.ts';
 import type { Toasts } from '../shared/toast.ts';
 import { VisemeGrid } from './viseme_grid.ts';
+import { visemeTitle } from './viseme_title.ts';
 import { VisemePad } from './viseme_pad.ts';
 import { nameOf, t } from '../../words/words.ts';
 

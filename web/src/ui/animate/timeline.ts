@@ -4,10 +4,11 @@ import { h, replace } from '../shared/dom.ts';
 import { formatTime } from '../shared/format.ts';
 import { icon, type IconName } from '../shared/icons.ts';
 import { canIdle, setIdle, type Idle } from '../shared/idle.ts';
-import { capital, fapTitle, visemeTitle } from '../shared/names.ts';
+import { capital, fapTitle } from '../shared/names.ts';
 import { dragCue, type CuePart } from './cue_drag.ts';
 import type { Toasts } from '../shared/toast.ts';
 import { TimelineModel } from './timeline_model.ts';
+import { visemeTitle } from './viseme_title.ts';
 import { nameOf, t } from '../../words/words.ts';
 
 /** More cues than these are not drawn: each is a control of the page. */

@@ -1,5 +1,4 @@
-import type { Viseme } from '@protocol/generated/mpeg4.ts';
-import { nameOf, t, visemeWords } from '../../words/words.ts';
+import { nameOf, t } from '../../words/words.ts';
 
 /** The standard's names as readable titles. */
 
@@ -34,10 +33,6 @@ export const fapGroupTitles: Record<number, string> = {
   9: t('Nose'),
   10: t('Ears'),
 };
-
-/** A viseme by its sounds, with a word that has them: "s z (sir)". */
-export const visemeTitle = ({ name, phonemes, examples }: Viseme): string =>
-  phonemes.length === 0 ? t('Silence') : `${phonemes.join(' ')} (${visemeWords(name, examples)[0] ?? name})`;
 
 export const capital = (text: string): string => text.charAt(0).toUpperCase() + text.slice(1);
 
