@@ -5,10 +5,11 @@ import { patience } from './support/patience.ts';
 import { browser, server, useStudio } from './support/suite.ts';
 
 useStudio();
-async function open(path: string, options: { reducedMotion?: 'reduce'; noWebGl?: boolean } = {}): Promise<{ page: Page; errors: string[] }> {
+async function open(path: string, options: { reducedMotion?: 'reduce'; noWebGl?: boolean; locale?: string } = {}): Promise<{ page: Page; errors: string[] }> {
   const context = await browser.newContext({
     viewport: { width: 390, height: 844 },
     reducedMotion: options.reducedMotion ?? 'no-preference',
+    locale: options.locale ?? 'en-US',
   });
   context.setDefaultTimeout(patience);
   const page = await context.newPage();
@@ -81,18 +82,22 @@ test('View_UnknownStream_SaysSo_AndShowsItOnceItIsThere', async () => {
   await page.context().close();
 });
 
-test('View_LessMotionWished_WaitsForPlay', async () => {
-  const { page, errors } = await open('/view/demo', { reducedMotion: 'reduce' });
+test('View_LessMotionWished_WaitsForPlay_InPortugueseToo', async () => {
+  const { page, errors } = await open('/view/demo', { reducedMotion: 'reduce', locale: 'pt-BR' });
   await untilFace(page, 'resting');
-  await page.getByRole('button', { name: 'Play' }).first().click();
+  expect(await page.locator('html').getAttribute('lang')).toBe('pt-BR');
+  await page.getByRole('img', { name: 'Rosto animado, fluxo demo' }).waitFor();
+  await page.getByRole('button', { name: 'Legendas' }).waitFor();
+  expect(await page.getByRole('status').allInnerTexts()).toContain('Conexão boa');
+  await page.getByRole('button', { name: 'Reproduzir' }).first().click();
   await untilFace(page, 'playing');
   expect(errors).toEqual([]);
   await page.context().close();
 });
 
 test('View_WithoutWebGl_SaysSo', async () => {
-  const { page } = await open('/view/demo', { noWebGl: true });
+  const { page } = await open('/view/demo', { noWebGl: true, locale: 'pt-BR' });
   await untilFace(page, 'error');
-  expect((await shownFace(page)).message).toContain('WebGL 2');
+  expect((await shownFace(page)).message).toContain('não tem WebGL 2');
   await page.context().close();
 });

@@ -1,23 +1,17 @@
 import './view.css';
-import { type Connection, SemblanteFace } from 'semblante/element';
+import { faceWords, SemblanteFace } from 'semblante/element';
 import { acceptInvitation } from './invitation.ts';
 import { keepOffline } from '../offline/register.ts';
 import { captionsAreChosen, chooseCaptions } from '../kept/captions_choice.ts';
+import { language } from '../kept/language.ts';
 import { stayAwake } from './wake_lock.ts';
+import { viewWords } from './words.ts';
 
 /** "/view/demo", also below a path of a proxy: the server's address and the stream's id. */
 export function placeOf(path: string): { base: string; stream: string } {
   const at = path.lastIndexOf('/view/');
   return { base: path.slice(0, Math.max(at, 0)), stream: decodeURIComponent(path.slice(at + '/view/'.length)) };
 }
-
-const connectionWords: Record<Connection, string> = {
-  none: '',
-  good: 'Good connection',
-  fair: 'Slow connection',
-  poor: 'Poor connection',
-  lost: 'No connection',
-};
 
 const paths = { pause: 'M6 4h4v16H6zM14 4h4v16h-4z', play: 'M7 4l13 8-13 8z' };
 
@@ -32,8 +26,11 @@ function svg(inside: string): SVGSVGElement {
 /** The page: one face, how its connection is, and buttons for captions and to pause it. */
 async function main(root: HTMLElement): Promise<void> {
   const { base, stream } = placeOf(location.pathname);
+  const { page, face: words } = await viewWords();
+  document.documentElement.lang = language;
+  if (words) Object.assign(faceWords, words);
   if (stream === '') {
-    root.textContent = 'No stream is named: the address of this page ends with the name of a stream, as in /view/demo.';
+    root.textContent = page.noStream;
     root.className = 'note';
     return;
   }
@@ -43,7 +40,6 @@ async function main(root: HTMLElement): Promise<void> {
   const face = new SemblanteFace();
   face.src = base === '' ? '' : location.origin + base;
   face.stream = stream;
-  face.setAttribute('alt', `Animated face, stream ${stream}`);
   face.setAttribute('orbit', 'free');
   face.sound = true;
   // "?voice": this device's own voice, for the thinnest wire.
@@ -54,17 +50,17 @@ async function main(root: HTMLElement): Promise<void> {
   const bars = document.createElement('span');
   bars.className = 'bars';
   bars.append(svg('<rect x="3" y="15" width="4" height="6" rx="1"/><rect x="10" y="10" width="4" height="11" rx="1"/><rect x="17" y="4" width="4" height="17" rx="1"/>'));
-  const words = document.createElement('span');
-  words.className = 'unseen';
-  words.setAttribute('role', 'status');
+  const status = document.createElement('span');
+  status.className = 'unseen';
+  status.setAttribute('role', 'status');
   const button = document.createElement('button');
   button.type = 'button';
   button.hidden = true;
   button.addEventListener('click', () => (face.paused ? face.play() : face.pause()));
   const captions = document.createElement('button');
   captions.type = 'button';
-  captions.title = 'Captions';
-  captions.setAttribute('aria-label', 'Captions');
+  captions.title = page.captions;
+  captions.setAttribute('aria-label', page.captions);
   captions.setAttribute('aria-pressed', String(face.captions));
   captions.append(svg('<path fill-rule="evenodd" d="M4 5h16a2 2 0 0 1 2 2v10a2 2 0 0 1-2 2H4a2 2 0 0 1-2-2V7a2 2 0 0 1 2-2zm1 6v2h4v-2zm6 0v2h8v-2zm-6 4v2h8v-2zm10 0v2h4v-2z"/>'));
   captions.addEventListener('click', () => {
@@ -75,16 +71,17 @@ async function main(root: HTMLElement): Promise<void> {
   const corner = document.createElement('div');
   corner.className = 'corner';
   corner.hidden = true;
-  corner.append(captions, button, bars, words);
+  corner.append(captions, button, bars, status);
   root.replaceChildren(face, corner);
 
   const refresh = (): void => {
     const level = face.connection;
     corner.hidden = level === 'none';
     bars.dataset['level'] = level;
-    bars.title = connectionWords[level];
-    if (words.textContent !== connectionWords[level]) words.textContent = connectionWords[level];
-    const label = face.paused ? 'Play' : 'Pause';
+    const said = page.connection[level];
+    bars.title = said;
+    if (status.textContent !== said) status.textContent = said;
+    const label = face.paused ? page.play : page.pause;
     if (button.getAttribute('aria-label') !== label) {
       button.setAttribute('aria-label', label);
       button.title = label;

@@ -1,7 +1,7 @@
 import { loadFace, type Face, type LoadOptions } from '../face.ts';
 import { FaceError } from '../face_error.ts';
 import { ProtocolError } from '../../../protocol/ts/protocol_error.ts';
-import { FaceTrouble, troubleWords, type Trouble } from './words.ts';
+import { FaceTrouble, faceWords, type Trouble } from './words.ts';
 
 /** Where a face comes from. */
 export interface Source {
@@ -21,7 +21,7 @@ export function requestOf(source: Source): typeof fetch {
 }
 
 export function trouble(code: Trouble, name = ''): FaceTrouble {
-  return new FaceTrouble(code, troubleWords[code](name));
+  return new FaceTrouble(code, faceWords.trouble[code](name));
 }
 
 /** Characters of a text from a page that are shown in words. */

@@ -2,9 +2,9 @@ import type { CaptionsBox, Cue } from '../captions/index.ts';
 import type { Fit } from '../view/framing.ts';
 import type { QualityName } from './detail.ts';
 import { FaceShow, type ShowState } from './face_show.ts';
-import { expectIds, serverOf, type Source } from './loader.ts';
+import { expectIds, serverOf, trouble, type Source } from './loader.ts';
 import { styleText } from './style.ts';
-import { FaceTrouble, type Trouble } from './words.ts';
+import { FaceTrouble, faceWords, type Trouble } from './words.ts';
 
 export type FaceState = ShowState | 'idle';
 
@@ -88,7 +88,7 @@ export class SemblanteFace extends Base {
     this.words.setAttribute('role', 'status');
     this.wheel.hidden = true;
     this.playButton.type = 'button';
-    this.playButton.textContent = 'Play';
+    this.playButton.textContent = faceWords.play;
     this.playButton.hidden = true;
     this.playButton.addEventListener('click', () => this.play());
     this.soundButton.type = 'button';
@@ -393,7 +393,7 @@ export class SemblanteFace extends Base {
     const { show } = this;
     if (!show) return null;
     if (show.trouble) return show.trouble;
-    return show.state === 'ended' || show.state === 'stalled' ? new FaceTrouble('lost', stateWords[show.state]) : null;
+    return show.state === 'ended' || show.state === 'stalled' ? trouble(show.state === 'ended' ? 'ended' : 'lost') : null;
   }
 
   /** Shows what the state means. */
@@ -414,20 +414,20 @@ export class SemblanteFace extends Base {
     this.captionsBox?.setHeard(this.isHeard || this.isSpeaking);
     if (show?.hasVoice && show.face && this.state !== 'error') {
       soundButton.hidden = soundButton.disabled = false;
-      soundButton.textContent = this.isSpeaking ? 'Voice off' : 'Voice on';
+      soundButton.textContent = this.isSpeaking ? faceWords.voiceOff : faceWords.voiceOn;
       return;
     }
     soundButton.hidden = !this.sound || !(show?.hasSound ?? false) || this.state === 'error';
     const canHear = typeof AudioDecoder === 'function';
     soundButton.disabled = !canHear;
-    soundButton.textContent = !canHear ? 'No sound in this browser' : this.isHeard ? 'Sound off' : 'Sound on';
+    soundButton.textContent = !canHear ? faceWords.noSound : this.isHeard ? faceWords.soundOff : faceWords.soundOn;
   }
 
   // ---- presentation -----------------------------------------------------------------------------------------
 
   /** The accessible name belongs to the picture; messages and the button beside it are read for themselves. */
   private name(): void {
-    const label = this.getAttribute('alt') ?? `Animated face${this.stream ? `, stream ${this.stream}` : ''}`;
+    const label = this.getAttribute('alt') ?? faceWords.face(this.stream);
     this.canvas?.setAttribute('aria-label', label);
     this.picture.alt = this.canvas ? '' : label;
   }
@@ -476,8 +476,6 @@ export class SemblanteFace extends Base {
     show.invalidate();
   }
 }
-
-const stateWords = { ended: 'The stream has ended.', stalled: 'The connection was lost. Trying again.' };
 
 function lessMotion(): boolean {
   return typeof matchMedia === 'function' && matchMedia('(prefers-reduced-motion: reduce)').matches;

@@ -1,15 +1,10 @@
+import { changeLanguage, language, languageOf, languages, type Language } from '../../kept/language.ts';
 import type { portuguese } from './portuguese.ts';
 
 /** Every text of the studio, in English, as the tables of the other languages list them. */
 export type Text = keyof typeof portuguese;
 
-export const languages = { en: 'English', 'pt-BR': 'Português' } as const;
-export type Language = keyof typeof languages;
-
-const key = 'semblante.language';
-
-/** The language of the page, for texts, numbers and dates; it changes only with the page. */
-export const language = chosenLanguage() ?? languageOf(globalThis.navigator?.languages ?? []);
+export { changeLanguage, language, languageOf, languages, type Language };
 
 // A table is loaded only for its language.
 const table: Readonly<Record<Text, string>> | null =
@@ -41,31 +36,3 @@ export const visemeWords = (name: string, english: readonly string[]): readonly 
 
 /** The title of a kind of the server's problems (the end of its `type`) in the language of the page; null: it stays as the server wrote it. */
 export const problemTitle = (slug: string): string | null => problems?.[slug] ?? null;
-
-/** The first language of a browser's list that the studio has, else English. */
-export function languageOf(wanted: readonly string[]): Language {
-  for (const name of wanted) {
-    if (/^pt\b/i.test(name)) return 'pt-BR';
-    if (/^en\b/i.test(name)) return 'en';
-  }
-  return 'en';
-}
-
-/** Stores a language for this browser and opens the page again in it. */
-export function changeLanguage(to: Language): void {
-  try {
-    localStorage.setItem(key, to);
-  } catch {
-    return; // storage is forbidden, and the page would forget the choice
-  }
-  location.reload();
-}
-
-function chosenLanguage(): Language | null {
-  try {
-    const kept = globalThis.localStorage?.getItem(key) ?? '';
-    return kept in languages ? (kept as Language) : null;
-  } catch {
-    return null;
-  }
-}
