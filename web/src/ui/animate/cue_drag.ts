@@ -51,7 +51,9 @@ export function dragCue(element: HTMLElement, options: CueDragOptions): void {
     if (event.button !== 0) return;
     leave();
     if (event.pointerType !== 'touch' || options.isChosen()) return take(event);
-    press = { x: event.clientX, y: event.clientY, timer: window.setTimeout(() => take(event), longPress) };
+    // A page that was busy sees the moves of meanwhile with its next frame: then the finger did not rest.
+    const timer = window.setTimeout(() => requestAnimationFrame(() => press?.timer === timer && take(event)), longPress);
+    press = { x: event.clientX, y: event.clientY, timer };
   });
   element.addEventListener('pointermove', (event) => {
     if (drag) options.show(...at(event));
