@@ -15,7 +15,7 @@ class LiveMouth {
   const Weights& follow(const VisemeListener::Heard& heard);
 
   /// How far the weights are behind the probabilities, ms: lips close at once.
-  static constexpr double delay_ms = 10.0;
+  static constexpr double delay_ms = 7.5;
 
  private:
   Weights weights_{1.0F};
