@@ -35,7 +35,7 @@ describe('bytesOf', () => {
 
 describe('libsemblante in WebAssembly', () => {
   it.each([
-    ['semblante_view.wasm: streams, players and the kernel', viewPath, 95_000, 40_600],
+    ['semblante_view.wasm: streams, players and the kernel', viewPath, 95_400, 40_900],
     ['semblante_speak.wasm: speakers', speakPath, 32_500, 18_100],
     ['semblante_motion.wasm: takes, performances and bridges', motionPath, 119_000, 55_500],
     ['semblante_listen.wasm: listeners', listenPath, 57_500, 49_800],

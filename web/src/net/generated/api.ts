@@ -751,7 +751,7 @@ export interface paths {
         };
         /**
          * The voices that the voice program knows, and how well each language is said
-         * @description Without an installed voice: none. With one that has no names: 502, `voice-failed`.
+         * @description Without an installed voice: none. With one that has no names: 502, `voice-failed`. The list is at most a minute old.
          */
         get: operations["listVoices"];
         put?: never;
