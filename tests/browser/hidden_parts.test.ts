@@ -35,7 +35,7 @@ describe('hidden parts', () => {
     const studio = await StudioPage.open(browser, `${server.url}/#sample/points`, { coarse: true, width: 1440, height: 900 });
     const { page } = studio;
     await studio.waitForStage('ready');
-    const box = page.locator('.parts-box');
+    const box = page.locator('.parts-box:not(.scans)');
     const before = await studio.pictureAtRest();
     // The hair, then the skin below it.
     const stage = (await page.locator('canvas.canvas').boundingBox())!;
@@ -97,7 +97,7 @@ describe('hidden parts', () => {
     const { page } = studio;
     await studio.waitForStage('ready');
     const middle = await partAt(studio, 0.5, 0.5);
-    await page.locator('.parts-box summary').tap();
+    await page.locator('.parts-box:not(.scans) summary').tap();
     await page.locator('.eye', { hasText: middle! }).tap();
     await page.getByText('1 oculta').waitFor();
     expect(await partAt(studio, 0.5, 0.5)).not.toBe(middle);
