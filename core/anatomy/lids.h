@@ -13,7 +13,7 @@
 
 namespace semblante {
 
-/// Lids that touch or overlap have so much to close, radians.
+/// The least slit, radians: that of lids that touch or overlap.
 inline constexpr double least_slit = 0.001;
 
 /// How the lids of one eye (0 left, 1 right) roll on the eyeball. Empty if their edges are not known or not before the

@@ -65,8 +65,8 @@ struct Lids {
   static constexpr std::size_t ball_places = 17;  ///< at which the ball is sampled, from the pole to the equator
 
   glm::vec3 gaze{0.0F, 0.0F, 1.0F};  ///< unit vector from the eye's pivot through the pupil
-  float slit = 0.0F;                 ///< angle about the axis that closes the eye, and
-  float opening = 0.0F;  ///< displacement of 3.1 (3.2) downwards that does; positive, next to nothing if closed
+  float slit = 0.0F;                 ///< angle about the axis by which the lids close
+  float opening = 0.0F;              ///< displacement of 3.1 (3.2) downwards that closes the eye; positive
   /// Upper, lower: share of the eye's pitch that the open lid follows. ICT-FaceKit's shapes of looking down and up give
   /// 0.65 and 0.35, 0.15 and 0.15 for a gaze of 30 degrees.
   std::array<float, 2> gaze_share{0.6F, 0.15F};

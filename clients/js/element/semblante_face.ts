@@ -393,7 +393,8 @@ export class SemblanteFace extends Base {
     const { show } = this;
     if (!show) return null;
     if (show.trouble) return show.trouble;
-    return show.state === 'ended' || show.state === 'stalled' ? trouble(show.state === 'ended' ? 'ended' : 'lost') : null;
+    if (show.state === 'ended') return trouble('ended');
+    return show.state === 'stalled' ? trouble('lost') : null;
   }
 
   /** Shows what the state means. */

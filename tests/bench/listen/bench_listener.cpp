@@ -57,7 +57,7 @@ int main() {
   std::printf(
       "waits for %.0f samples of %u Hz after the moment, %.1f ms; from the moment to the end of the block with which "
       "it is\n"
-      "heard, ms: least %.1f, median %.1f, most %.1f; opening follows %.0f ms later, closing lips at once\n",
+      "heard, ms: least %.1f, median %.1f, most %.1f; opening follows %.1f ms later, closing lips at once\n",
       VisemeListener::delay_ms * rate / 1000.0, rate, VisemeListener::delay_ms, at(delays, 0.0), at(delays, 0.5),
       at(delays, 1.0), LiveMouth::delay_ms);
   std::printf(

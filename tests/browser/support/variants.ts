@@ -1,5 +1,5 @@
 /**
- * Whether tests that go the same way in several looks, languages or with several hands do so in each (`tests/run --browser`);
- * else in a few that have each of them once: a page costs seconds without a graphics card.
+ * Whether a test runs in every combination of look, language and way of input (`tests/run --browser`), or only in a few that
+ * have each of them once: a page costs seconds without a graphics card.
  */
 export const everyVariant = process.env['SEMBLANTE_BROWSER_TESTS'] === 'all';

@@ -145,7 +145,8 @@ TEST_F(LiveSpeech, FirstSentence_IsHeard_HoweverLateTheNextIs) {
 TEST_F(LiveSpeech, Joints_AreHeardAsInTheWhole) {
   const std::string text = first + "[joy]Another one that is just as long, and glad.[/joy] And the last of the three.";
   const auto whole = json_of(ask("POST", "/v1/speeches", json{{"text", text}, {"language", "en"}}.dump()));
-  // On a machine too busy for its voice a part comes late, and the face waits for it: then once more.
+  // On a busy machine a part may come late, and the face waits for it, which makes the whole longer: the test says it
+  // again.
   EXPECT_TRUE(testing::eventually([&] {
     EXPECT_EQ(say(text).status, 202);
     EXPECT_TRUE(testing::eventually([&] { return stream()["playing"].value("complete", true); }));

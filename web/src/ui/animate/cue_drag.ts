@@ -51,7 +51,7 @@ export function dragCue(element: HTMLElement, options: CueDragOptions): void {
     if (event.button !== 0) return;
     leave();
     if (event.pointerType !== 'touch' || options.isChosen()) return take(event);
-    // A page that was busy sees the moves of meanwhile with its next frame: then the finger did not rest.
+    // A page that was busy gets the moves that are due before its next frame; they end the press.
     const timer = window.setTimeout(() => requestAnimationFrame(() => press?.timer === timer && take(event)), longPress);
     press = { x: event.clientX, y: event.clientY, timer };
   });
