@@ -6,6 +6,7 @@
 #include <fstream>
 #include <regex>
 #include <sched.h>
+#include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -40,6 +41,20 @@ class BadDisk : public ::testing::Test {
     ASSERT_TRUE(testing::eventually([&] {
       return ::mount("none", data().c_str(), "tmpfs", MS_REMOUNT | flags, nullptr) == 0;
     })) << std::strerror(errno);
+  }
+  /// Makes empty files until no more can be made for half a second: a job that has ended may still remove its files.
+  void take_all_inodes() const {
+    fs::create_directory(data() / "filler");
+    int made = 0;
+    for (int refused = 0; refused < 10;) {
+      if (std::ofstream(data() / "filler" / std::to_string(made))) {
+        ++made;
+        refused = 0;
+      } else {
+        ++refused;
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+      }
+    }
   }
   static std::string start_error(const fs::path& folder) {
     try {
@@ -117,9 +132,7 @@ TEST_F(BadDisk, WithoutInodes_IsFull_AndHeals) {
   ASSERT_EQ(parametrize_grid(port, model)["state"], "done");
   request(port, "POST", "/v1/streams", R"({"name":"talk"})", json_type);
   const auto before = served(port);
-  fs::create_directory(data() / "filler");
-  for (int i = 0; std::ofstream(data() / "filler" / std::to_string(i)); ++i) {
-  }
+  take_all_inodes();
   const auto upload = request(port, "POST", "/v1/models?filename=a.obj", grid_obj(5), obj_type);
   EXPECT_EQ(upload.status, 507) << upload.body;
   EXPECT_EQ(json_of(upload)["type"], "/problems/insufficient-storage");
