@@ -49,7 +49,7 @@ std::size_t letters_of_character(std::string_view text) {
   const bool is_spelled = (byte(0) == 0xE0 && byte(1) >= 0xB8) ||
                           (byte(0) == 0xE1 && byte(1) >= 0x88 && byte(1) < 0x8E) ||
                           (byte(0) == 0xE1 && (byte(1) == 0x9E || byte(1) == 0x9F));
-  return is_spelled ? 24 : 6;
+  return is_spelled ? 40 : 6;
 }
 
 bool has_signs_alone(std::string_view text) {

@@ -15,7 +15,7 @@ inline constexpr std::size_t long_part_letters = 320, most_part_letters = 480;
 
 /// As how many letters the character that a text begins with counts, by the time in which it is said: 1; a character of
 /// East and Southeast Asia, which is a syllable or, in a voice of another language, the name of a letter, 6; one of a
-/// script that the voice of espeak-ng does not read, which spells it ("Thai letter ..."), 24.
+/// script that the voice of espeak-ng does not read, which spells it ("Thai letter ..."), 40.
 std::size_t letters_of_character(std::string_view text);
 
 /// Number of bytes of the sign that a text begins with, if the sign can end a sentence, else 0: a newline, and those of
