@@ -433,14 +433,14 @@ typedef enum semblante_voice_state {
 } semblante_voice_state;
 
 /* Tells the server what the client's own voice does. `speech`: `sequence` of the TEXT event, 0: none; `character`: code
- * points of the text before the place. FAILED and READY also hold for later connections when there is none now.
- * UNAVAILABLE, and nothing is sent, while the stream is not OPEN or 256 KiB wait. INVALID_ARGUMENT: not a subscriber,
- * an unknown state, a character over 2000. */
+ * points of the text before the place. UNAVAILABLE, and nothing is sent, while the stream is not OPEN or 256 KiB wait;
+ * FAILED and READY are then told as soon as it is OPEN, and hold for later connections. INVALID_ARGUMENT: not a
+ * subscriber, an unknown state, a character over 2000. */
 semblante_result semblante_stream_spoken(semblante_stream* stream, uint32_t state, uint64_t speech, uint32_t character,
                                          double now);
 
 /* Whether TEXT events come beside the frames and the sound of speech, for captions; also after a new connection. OK,
- * also when the server is told only with the next hello. INVALID_ARGUMENT: not a subscriber. */
+ * also when the server is told only when the stream is OPEN. INVALID_ARGUMENT: not a subscriber. */
 semblante_result semblante_stream_set_captions(semblante_stream* stream, uint32_t on);
 
 /* When the words of a score (TEXT events) begin, ms after `media_time`: those between spaces, tabs and ends of lines of

@@ -110,6 +110,8 @@ void Stream::opened(double now) {
   hello.sound = options_.sound;
   hello.text = options_.text && options_.role == StreamRole::subscribe;
   hello.captions = options_.captions && options_.role == StreamRole::subscribe;
+  told_text_ = options_.text;
+  told_captions_ = options_.captions;
   send(hello);
 }
 
@@ -232,7 +234,17 @@ void Stream::take_header(const Header& header, double now) {
   events_.push(std::move(event));
   become(SEMBLANTE_STREAM_OPEN);
   for (Player* player : followers_) player->begin(*header_);
+  tell_changed_wishes(now);
   measure_clock(now);
+}
+
+void Stream::tell_changed_wishes(double now) {
+  if (options_.captions != told_captions_) send(CaptionsWish{options_.captions});
+  if (options_.text != told_text_) {
+    Spoken voice;
+    voice.state = options_.text ? VoiceState::ready : VoiceState::failed;
+    spoken(voice, now);
+  }
 }
 
 void Stream::take_frames(double now, bool is_keyframe) {

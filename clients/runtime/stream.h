@@ -109,6 +109,8 @@ class Stream {
   void flush();
   void add_to_batch(const TimedFrame& frame, std::uint64_t media_time, double now);
   void take_header(const Header& header, double now);
+  /// What was changed between the hello of this connection and its header.
+  void tell_changed_wishes(double now);
   void take_frames(double now, bool is_keyframe);
   void take_sound(const SoundPacket& sound);
   void take_text(const SpeechText& text);
@@ -118,8 +120,9 @@ class Stream {
   StreamOptions options_;
   semblante_stream_state state_ = SEMBLANTE_STREAM_CLOSED;
   Link link_ = Link::none;
-  bool greeted_ = false;  ///< the header of this connection has come
-  bool ended_ = false;    ///< and its end
+  bool greeted_ = false;                            ///< the header of this connection has come
+  bool told_text_ = false, told_captions_ = false;  ///< by the hello of this connection
+  bool ended_ = false;                              ///< and its end
   std::optional<Header> header_;
   std::uint32_t resumed_ = SEMBLANTE_FRESH;
   QuantizerSteps steps_ = standard_quantizers();

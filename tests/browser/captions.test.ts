@@ -174,6 +174,8 @@ test('PageOfAStream_CaptionsButton_ShowsWordsInStepWithTheSound_AndIsRemembered'
   await page.reload({ waitUntil: 'domcontentloaded' });
   await untilFace(page, 'playing');
   expect(await button.getAttribute('aria-pressed')).toBe('true');
+  await say('Papa!');
+  await page.waitForFunction(() => document.querySelector('semblante-face')!.shadowRoot!.querySelector('.captions')!.textContent === 'Papa!');
   await button.click();
   expect(await page.evaluate(() => localStorage.getItem('semblante.captions'))).toBe('off');
 

@@ -71,6 +71,35 @@ TEST(Text, Captions_AreAskedForByHelloAndChangedLater) {
   EXPECT_TRUE(server.open(1200).captions);
 }
 
+TEST(Text, WishesBetweenHelloAndHeader_AreToldAfterTheHeader) {
+  ScriptedServer server;
+  semblante_stream_start(server.stream, 1000);
+  const auto hello = server.open(1000);
+  EXPECT_FALSE(hello.captions);
+  EXPECT_FALSE(hello.text);
+  EXPECT_EQ(semblante_stream_set_captions(server.stream, 1), SEMBLANTE_OK);
+  EXPECT_EQ(semblante_stream_spoken(server.stream, SEMBLANTE_VOICE_READY, 0, 0, 1005), SEMBLANTE_UNAVAILABLE);
+  EXPECT_TRUE(server.sent().empty());
+  server.greet(ScriptedServer::header(7, 5000), {10, 5000, face(0)}, 1010);
+  std::vector<bool> captions;
+  std::vector<VoiceState> voice;
+  for (const auto& message : server.sent()) {
+    if (const auto* wish = std::get_if<CaptionsWish>(&message)) captions.push_back(wish->on);
+    if (const auto* spoken = std::get_if<Spoken>(&message)) voice.push_back(spoken->state);
+  }
+  EXPECT_THAT(captions, ElementsAre(true));
+  EXPECT_THAT(voice, ElementsAre(VoiceState::ready));
+
+  // What was wished and taken back is not told, nor what the next hello says.
+  semblante_stream_closed(server.stream, 0, 1100);
+  semblante_stream_start(server.stream, 1200);
+  EXPECT_TRUE(server.open(1200).captions);
+  EXPECT_EQ(semblante_stream_set_captions(server.stream, 0), SEMBLANTE_OK);
+  EXPECT_EQ(semblante_stream_set_captions(server.stream, 1), SEMBLANTE_OK);
+  server.greet(ScriptedServer::header(7, 5200), {20, 5200, face(0)}, 1210);
+  for (const auto& message : server.sent()) EXPECT_TRUE(std::holds_alternative<Ping>(message));
+}
+
 TEST(Text, CaptionsOfAPublisher_AreRefused) {
   auto options = ScriptedServer::usual();
   options.role = SEMBLANTE_ROLE_PUBLISH;
