@@ -4,6 +4,8 @@
 #include <array>
 #include <span>
 
+#include "core/types/printable.h"
+
 namespace semblante {
 namespace {
 
@@ -16,6 +18,16 @@ constexpr std::array<std::string_view, 14> opening = {"\"", "'", "(", "[", "{", 
                                                       "„",  "«", "¿", "¡", "「", "『", "（"};
 constexpr std::array<std::string_view, 11> closing = {"\"", "'", ")", "]", "}", "”", "’", "»", "」", "』", "）"};
 constexpr std::size_t long_clause = 160;  ///< letters
+/// First and last characters of the marks (Unicode's categories Mn and Mc, and joiners) of scripts that write no spaces
+/// between words: Thai, Lao, Tibetan, Myanmar, Khmer, kana; accents of any script; of emoji, skin tones and selectors.
+constexpr std::array<std::array<std::string_view, 2>, 22> joining = {{
+    {"\u0300", "\u036F"}, {"\u0E31", "\u0E31"},         {"\u0E33", "\u0E3A"}, {"\u0E47", "\u0E4E"},
+    {"\u0EB1", "\u0EB1"}, {"\u0EB3", "\u0EBC"},         {"\u0EC8", "\u0ECE"}, {"\u0F18", "\u0F19"},
+    {"\u0F35", "\u0F35"}, {"\u0F37", "\u0F37"},         {"\u0F39", "\u0F39"}, {"\u0F3E", "\u0F3F"},
+    {"\u0F71", "\u0F87"}, {"\u0F8D", "\u0FBC"},         {"\u102B", "\u103E"}, {"\u135D", "\u135F"},
+    {"\u17B4", "\u17D3"}, {"\u200C", "\u200D"},         {"\u20D0", "\u20F0"}, {"\u3099", "\u309A"},
+    {"\uFE00", "\uFE0F"}, {"\U0001F3FB", "\U0001F3FF"},
+}};
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -50,6 +62,13 @@ std::size_t letters_of_character(std::string_view text) {
                           (byte(0) == 0xE1 && byte(1) >= 0x88 && byte(1) < 0x8E) ||
                           (byte(0) == 0xE1 && (byte(1) == 0x9E || byte(1) == 0x9F));
   return is_spelled ? 40 : 6;
+}
+
+bool joins_before(std::string_view text) {
+  // The bytes of UTF-8 have the order of the characters.
+  const std::string_view character = text.substr(0, utf8_step(text));
+  return std::any_of(joining.begin(), joining.end(),
+                     [character](const auto& range) { return character >= range[0] && character <= range[1]; });
 }
 
 bool has_signs_alone(std::string_view text) {
@@ -87,7 +106,7 @@ std::size_t with_opening(std::string_view text, std::size_t byte) {
 }
 
 bool may_break(std::string_view before, std::string_view after, std::size_t letters) {
-  if (letters >= most_part_letters) return true;
+  if (letters >= most_part_letters) return letters >= 2 * most_part_letters || !joins_before(after);
   if (before.empty() || after.empty()) return false;
   const bool at_space = is_space(before.back());
   if (letters >= long_part_letters)

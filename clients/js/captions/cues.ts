@@ -33,7 +33,7 @@ export function cuesOf({ text, score, mediaTime, duration, language }: SpokenTex
   const wide = (from: number, to: number): number => width(text.slice(from, to));
   const cues: Cue[] = [];
   const last = pieces.at(-1)!.end;
-  const parts = Math.ceil(wide(first.begin, last) / most);
+  const parts = partsOf(pieces, wide);
   const target = wide(first.begin, last) / parts;
   let begin = first;
   const close = (end: number): void => {
@@ -45,8 +45,8 @@ export function cuesOf({ text, score, mediaTime, duration, language }: SpokenTex
     if (!before || before.begin < begin.begin || wide(begin.begin, last) <= most) return;
     const has = wide(begin.begin, before.end);
     // The end of a clause is a good place to divide, if the rest then needs no more parts.
-    const isClause = /[,;:،؛、，。]["'”’)]*$/.test(text.slice(before.begin, before.end)) && wide(piece.begin, last) <= most * (parts - cues.length - 1);
-    if (has < target * (isClause ? 0.6 : 1) && wide(begin.begin, piece.end) <= most) return;
+    const isClause = has >= target * 0.6 && /[,;:،؛、，。]["'”’)]*$/.test(text.slice(before.begin, before.end)) && partsOf(pieces.slice(i), wide) < parts - cues.length;
+    if (has < target && !isClause && wide(begin.begin, piece.end) <= most) return;
     close(before.end);
     begin = piece;
   });
@@ -55,6 +55,18 @@ export function cuesOf({ text, score, mediaTime, duration, language }: SpokenTex
     cue.end = cues[i + 1]?.begin ?? Math.max(mediaTime + duration + tail, cue.begin + least);
   });
   return cues;
+}
+
+/** As few cues as hold all pieces. */
+function partsOf(pieces: readonly Piece[], wide: (from: number, to: number) => number): number {
+  let parts = 1;
+  let begin = pieces[0]!.begin;
+  for (const piece of pieces) {
+    if (wide(begin, piece.end) <= most) continue;
+    parts += 1;
+    begin = piece.begin;
+  }
+  return parts;
 }
 
 /** The words; those that are longer than a cue, of languages that write no spaces, in pieces with times by their length. */

@@ -1,4 +1,8 @@
 // Sound and captions of an utterance as files.
+#include <regex>
+#include <sstream>
+
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/speech/loudness.h"
@@ -8,6 +12,8 @@
 
 namespace semblante {
 namespace {
+
+using ::testing::ElementsAre;
 
 TEST(WebVtt, WordsWithoutSpaceBetween_AreJoined) {
   Utterance said;
@@ -35,6 +41,27 @@ TEST(WebVtt, HasEachWordWithItsTime_ASentenceACue_AndNoMarkup) {
   EXPECT_EQ(web_vtt(said, "Olá, mundo! <a&"),
             "WEBVTT\n\n00:00:00.400 --> 00:00:01.500\nOlá, <00:00:00.900>mundo!\n\n"
             "00:00:01.500 --> 00:00:02.500\n&lt;a&amp;\n");
+}
+
+TEST(WebVtt, ALongSentence_IsInCuesOfAboutTheSameLength) {
+  const std::string text =
+      "I'm sorry that the very long sentence which follows has to be shown in more than one piece, because nobody can "
+      "read thirty words at once on a phone. Bye.";
+  Utterance said;
+  for (std::size_t at = 0; at < text.size(); at = text.find(' ', at) + 1) {
+    const std::size_t end = std::min(text.find(' ', at), text.size());
+    said.words.push_back({300.0 * static_cast<double>(said.words.size()), {at, end - at}});
+    if (end == text.size()) break;
+  }
+  said.duration = 300.0 * static_cast<double>(said.words.size());
+  said.sentences = {{0, 0}, {said.words.back().time, text.find("Bye")}};
+  std::istringstream vtt(std::regex_replace(web_vtt(said, text), std::regex("<[^>]*>"), ""));
+  std::vector<std::string> cues;
+  for (std::string line; std::getline(vtt, line);)
+    if (!line.empty() && line != "WEBVTT" && line.find("-->") == std::string::npos) cues.push_back(line);
+  EXPECT_THAT(cues, ElementsAre("I'm sorry that the very long sentence which follows",
+                                "has to be shown in more than one piece, because nobody",
+                                "can read thirty words at once on a phone.", "Bye."));
 }
 
 TEST(WebVtt, WordsOutsideTheText_DoNoHarm) {

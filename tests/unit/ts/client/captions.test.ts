@@ -30,6 +30,15 @@ describe('cuesOf', () => {
     expect(cues[0]!.end).toBe(cues[1]!.begin);
   });
 
+  it('No word is left over for a line of its own', () => {
+    const text = "I'm sorry that the very long sentence which follows has to be shown in more than one piece, because nobody can read thirty words at once on a phone.";
+    expect(cuesOf(said(text)).map((cue) => cue.text)).toEqual([
+      "I'm sorry that the very long sentence which follows",
+      'has to be shown in more than one piece,',
+      'because nobody can read thirty words at once on a phone.',
+    ]);
+  });
+
   it('Words longer than a line, and languages without spaces, are divided too', () => {
     for (const text of ['a'.repeat(300), '你好，今天天气很好，我们一起去公园散步吧。'.repeat(6), 'สวัสดีครับวันนี้อากาศดีมากเราไปเดินเล่นกัน'.repeat(4)]) {
       const cues = cuesOf(said(text, { duration: 9000, score: Uint8Array.of(0xaf) }));
