@@ -57,4 +57,24 @@ void CollapseHistory::append_triangles(const CollapseLimit& limit, std::vector<L
   triangles.insert(triangles.end(), then.begin(), then.end());
 }
 
+void CollapseHistory::replace_corners(const CollapseLimit& limit, std::span<std::uint32_t> kept) const {
+  std::vector<std::array<std::uint32_t, 3>> now;
+  now.reserve(full_.size());
+  for (const LevelTriangle& triangle : full_) now.push_back(triangle.corners);
+  const std::size_t end = edits_after_[collapses_at(limit)];
+  for (std::size_t e = 0; e < end; ++e) {
+    const Edit& edit = edits_[e];
+    if (edit.corners[0] == Model::no_index) continue;
+    for (std::size_t c = 0; c < 3; ++c) kept[now[edit.triangle][c]] = edit.corners[c];
+    now[edit.triangle] = edit.corners;
+  }
+  // A corner may have gone to one that went on.
+  for (const LevelTriangle& triangle : full_)
+    for (const std::uint32_t corner : triangle.corners) {
+      std::uint32_t last = corner;
+      while (kept[last] != last) last = kept[last];
+      for (std::uint32_t at = corner; at != last;) at = std::exchange(kept[at], last);
+    }
+}
+
 }  // namespace semblante

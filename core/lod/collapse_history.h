@@ -58,6 +58,8 @@ class CollapseHistory {
   [[nodiscard]] std::size_t count_at(const CollapseLimit& limit) const { return counts_[collapses_at(limit)]; }
   /// Appends the triangles at that limit, by increasing source.
   void append_triangles(const CollapseLimit& limit, std::vector<LevelTriangle>& triangles) const;
+  /// Sets for each corner of the group that is gone at that limit the one in its place. `kept`: by corner.
+  void replace_corners(const CollapseLimit& limit, std::span<std::uint32_t> kept) const;
 
  private:
   struct Edit {

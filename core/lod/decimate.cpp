@@ -13,6 +13,7 @@
 #include "core/lod/corners.h"
 #include "core/lod/fixed_vertices.h"
 #include "core/lod/importance.h"
+#include "core/lod/level_normals.h"
 
 namespace semblante {
 namespace {
@@ -56,22 +57,30 @@ std::vector<std::vector<std::uint32_t>> triangles_by_role(const Model& model, co
   return groups;
 }
 
-LevelOfDetail level_from(const Corners& corners, const std::vector<LevelTriangle>& triangles, bool has_uvs) {
+/// `normals`: by corner.
+LevelOfDetail level_from(const Corners& corners, const std::vector<LevelTriangle>& triangles, bool has_uvs,
+                         std::span<const glm::vec3> normals) {
   LevelOfDetail level;
+  std::vector<std::uint32_t> normal_of(corners.corners.size(), Model::no_index);
   for (const LevelTriangle& triangle : triangles) {
     Triangle vertices{};
     Triangle uvs{};
-    Triangle normals{};
+    Triangle normal_at{};
     for (std::size_t c = 0; c < 3; ++c) {
       const Corner& corner = corners.corners[triangle.corners[c]];
+      std::uint32_t& normal = normal_of[triangle.corners[c]];
+      if (normal == Model::no_index) {
+        normal = static_cast<std::uint32_t>(level.normals.size());
+        level.normals.push_back(normals[triangle.corners[c]]);
+      }
       vertices[c] = corner.file_vertex;
       uvs[c] = corner.uv;
-      normals[c] = corner.normal;
+      normal_at[c] = normal;
     }
     level.source_triangles.push_back(triangle.source);
     level.triangles.push_back(vertices);
     if (has_uvs) level.uv_triangles.push_back(uvs);
-    if (corners.has_normals) level.normal_triangles.push_back(normals);
+    level.normal_triangles.push_back(normal_at);
   }
   return level;
 }
@@ -104,15 +113,20 @@ double price_within(const std::vector<CollapseHistory>& groups, std::size_t budg
   return std::bit_cast<double>(high);
 }
 
-/// Triangles of all groups at one price, with at most this many corners. Each group keeps a fraction of `share`.
-std::vector<LevelTriangle> triangles_within(const std::vector<CollapseHistory>& groups, std::size_t corners,
-                                            double share) {
+/// The limits of all groups at one price, with at most this many corners. Each group keeps a fraction of `share`.
+std::vector<CollapseLimit> limits_within(const std::vector<CollapseHistory>& groups, std::size_t corners,
+                                         double share) {
   const double least_share = least_of_share * share;
   const double price = price_within(groups, corners, least_share);
+  std::vector<CollapseLimit> limits;
+  for (const CollapseHistory& group : groups) limits.push_back(limit_of(group, price, least_share));
+  return limits;
+}
+
+std::vector<LevelTriangle> triangles_at(const std::vector<CollapseHistory>& groups,
+                                        std::span<const CollapseLimit> limits) {
   std::vector<LevelTriangle> triangles;
-  for (const CollapseHistory& group : groups) {
-    group.append_triangles(limit_of(group, price, least_share), triangles);
-  }
+  for (std::size_t g = 0; g < groups.size(); ++g) groups[g].append_triangles(limits[g], triangles);
   std::sort(triangles.begin(), triangles.end(), [](const auto& a, const auto& b) { return a.source < b.source; });
   return triangles;
 }
@@ -185,6 +199,8 @@ Result<std::vector<LevelOfDetail>> decimate(const Model& model, const Surface& s
   const double least_share =
       least_of_share * options.budgets.back() / static_cast<double>(std::max<std::size_t>(corners.corners.size(), 1));
 
+  const CornerNormals normals = corner_normals(model, surface, corners);
+
   std::vector<CollapseHistory> groups;
   std::size_t triangles_done = 0;
   bool stopped = false;
@@ -206,16 +222,22 @@ Result<std::vector<LevelOfDetail>> decimate(const Model& model, const Surface& s
   for (const std::uint32_t budget : options.budgets) {
     if (budget >= before) continue;
     const double share = budget / full;
-    std::vector<LevelTriangle> triangles = triangles_within(groups, budget, share);
+    std::vector<CollapseLimit> limits = limits_within(groups, budget, share);
+    std::vector<LevelTriangle> triangles = triangles_at(groups, limits);
     std::size_t count = drawn_vertices(corners, triangles);
     // A non-manifold mesh has slightly more vertices than corners: lower the target by the difference, a few times.
     for (std::size_t aim = budget, attempt = 0; count > budget && attempt < 3; ++attempt) {
       aim -= std::min(aim, count - budget);
-      triangles = triangles_within(groups, aim, share);
+      limits = limits_within(groups, aim, share);
+      triangles = triangles_at(groups, limits);
       count = drawn_vertices(corners, triangles);
     }
     if (static_cast<double>(count) > most_of_level_before * static_cast<double>(before)) continue;
-    levels.push_back(level_from(corners, triangles, !model.uvs.empty() && !model.uv_triangles.empty()));
+    std::vector<std::uint32_t> kept(corners.corners.size());
+    std::iota(kept.begin(), kept.end(), 0U);
+    for (std::size_t g = 0; g < groups.size(); ++g) groups[g].replace_corners(limits[g], kept);
+    levels.push_back(level_from(corners, triangles, !model.uvs.empty() && !model.uv_triangles.empty(),
+                                level_normals(normals, kept)));
     levels.back().budget = budget;
     levels.back().vertex_count = static_cast<std::uint32_t>(count);
     before = count;
@@ -236,6 +258,7 @@ void apply_level(Model& model, const LevelOfDetail& level) {
   }
   model.triangles = level.triangles;
   model.uv_triangles = level.uv_triangles;
+  model.normals = level.normals;
   model.normal_triangles = level.normal_triangles;
 }
 

@@ -36,14 +36,15 @@ inline constexpr std::size_t max_levels = 8;
 inline constexpr std::uint32_t least_budget = 100, most_budget = 4'000'000;
 
 /// One level of detail of a model: its triangles. Its vertices are a subset of the model's with the model's numbers, so
-/// that positions, UVs, normals, weights, feature points and parts stay valid.
+/// that positions, UVs, weights, feature points and parts stay valid. Its normals are its own.
 struct LevelOfDetail {
   std::uint32_t budget = 0;
   std::uint32_t vertex_count =
       0;  ///< counted like the budget; more than the budget if no further vertex may be removed
   std::vector<Triangle> triangles;         ///< #T by 3, into Model::positions
   std::vector<Triangle> uv_triangles;      ///< #T by 3 or empty, as in Model
-  std::vector<Triangle> normal_triangles;  ///< likewise; also empty if the model is shaded flat
+  std::vector<glm::vec3> normals;          ///< unit length (level_normals.h)
+  std::vector<Triangle> normal_triangles;  ///< #T by 3, into `normals`
   std::vector<std::uint32_t>
       source_triangles;  ///< #T, increasing: the original triangle in the model, which defines the look
 };
