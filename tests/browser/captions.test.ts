@@ -204,6 +204,13 @@ test('Studio_SwitchInLive_ShowsWords_AndIsRemembered', async () => {
   expect(await captions.isChecked()).toBe(false);
   await captions.check();
   await page.getByRole('switch', { name: /^Sound/ }).check();
+  const between = await page.locator('.live-captions .captions > span').evaluate((span) => {
+    span.textContent = 'Words';
+    const { bottom } = span.getBoundingClientRect();
+    span.textContent = '';
+    return document.querySelector('.tools')!.getBoundingClientRect().top - bottom;
+  });
+  expect(between, 'above the buttons').toBeGreaterThanOrEqual(0);
   await expectWords(page, 'captions-studio'); // a busy machine draws the studio too slowly for a comparison of times
   await page.reload();
   await studio.waitForStage('ready');
