@@ -100,8 +100,17 @@ test('Update_WhileThisPageDeletes_DoesNotBringTheHeadBack', async () => {
   expect(said).toEqual(['rui was deleted.']);
 });
 
-test('Import_WithFindings_OpensThem_ButWhoTurnsTheHeadStaysAtItsPoints', async () => {
-  const warned = { ...head('ana'), findings: { errors: 0, warnings: 1, notes: 0 } };
+test('Import_WithWarningsOnly_GoesOnToThePoints', async () => {
+  const { studio, server } = await studioWith(importingModel({ id: 'ana' }));
+  server.heads = [{ ...head('ana'), findings: { errors: 0, warnings: 1, notes: 0 } }];
+  studio.tab.set('live');
+  await studio.update();
+  await Promise.resolve();
+  expect(studio.tab.value).toBe('points');
+});
+
+test('Import_WithErrors_OpensThem_ButWhoTurnsTheHeadStaysAtItsPoints', async () => {
+  const warned = { ...head('ana'), findings: { errors: 1, warnings: 0, notes: 0 } };
   const { studio, server } = await studioWith(importingModel({ id: 'ana' }));
   studio.tab.set('points');
   server.heads = [warned];

@@ -14,7 +14,7 @@ import type { Cue, StreamCaptions } from '../captions/index.ts';
 import type { StreamSound } from '../sound/index.ts';
 import type { StreamSpeech } from '../speech/index.ts';
 import { Link } from './link.ts';
-import { faceOf, Images, modelOf, smallImages, trouble, type Source } from './loader.ts';
+import { faceOf, Images, modelOf, firstImages, smallImages, trouble, type Source } from './loader.ts';
 import { FaceTrouble, isPassing } from './words.ts';
 
 /** `resting`: drawn and not moving yet, or paused. `stalled`: without a connection. */
@@ -50,7 +50,7 @@ export interface ShowOptions {
 /** ms until the next attempt after a trouble that can pass; each attempt doubles it, up to the longest. */
 const firstRetry = 1000;
 const longestRetry = 10_000;
-/** ms that the first picture waits for small images that are late */
+/** ms that the first picture waits for images that are late: the small ones, and all of a face that stands still */
 const imagePatience = 1500;
 
 /** One face on one canvas: loads it, follows its stream, draws it, keeps the device's pace, and comes back after a loss. */
@@ -91,6 +91,8 @@ export class FaceShow extends Emitter<ShowEvents> {
   private attempts = 0;
   private retryTimer: ReturnType<typeof setTimeout> | undefined;
   private frameRequest = 0;
+  /** Begins with the images that the first picture did not wait for. */
+  private fillLarge: () => void = () => undefined;
   private readonly resized: ResizeObserver;
 
   /** Throws FaceTrouble where WebGL 2 is missing. */
@@ -109,7 +111,7 @@ export class FaceShow extends Emitter<ShowEvents> {
       throw trouble('no-webgl');
     }
     this.renderer.onChange = () => this.invalidate();
-    this.images = new Images(options.source);
+    this.images = new Images(options.source, options.paused);
     this.link = new Link(options.source, options.sound);
     this.link.client.on('header', () => this.emit('sound', undefined));
     this.player.follow(this.link.client);
@@ -235,8 +237,8 @@ export class FaceShow extends Emitter<ShowEvents> {
       if (model !== this.model) {
         const level = { maxVertices: Math.min(firstVertices, this.budget.maxVertices) };
         const face = await faceOf(source, model, libraries, level, this.images, signal);
-        const small = smallImages(face.rig.images).map(({ sha256 }) => this.images.get(sha256));
-        await Promise.race([Promise.allSettled(small), new Promise((wake) => setTimeout(wake, imagePatience))]);
+        const wanted = firstImages(face.rig.images, this.paused).map(({ sha256 }) => this.images.get(sha256));
+        await Promise.race([Promise.allSettled(wanted), new Promise((wake) => setTimeout(wake, imagePatience))]);
         if (signal.aborted) return;
         const kernel = new Kernel(await libraries.runtime, face, { withVertices: false });
         this.kernel?.dispose();
@@ -284,10 +286,15 @@ export class FaceShow extends Emitter<ShowEvents> {
           .catch(() => undefined); // the plain colour stays
       });
     fill((hash) => first.has(hash));
-    // The large ones must not keep the face from moving.
-    const later = (): void => fill((hash) => !first.has(hash));
-    if (this.played || this.paused) later();
-    else setTimeout(later, imagePatience);
+    // The large ones must not keep the face from moving: they begin with its first motion, or when none comes.
+    let isDone = false;
+    this.fillLarge = () => {
+      if (isDone || this.work.signal.aborted) return;
+      isDone = true;
+      fill((hash) => !first.has(hash));
+    };
+    if (this.played || this.paused) this.fillLarge();
+    else setTimeout(this.fillLarge, imagePatience);
     this.invalidate();
     this.emit('level', { lod: face.rig.lod, vertices: face.rig.mesh.vertices });
   }
@@ -343,6 +350,7 @@ export class FaceShow extends Emitter<ShowEvents> {
     if (!moved) return;
     if (!this.played) {
       this.played = true;
+      this.fillLarge();
       this.emit('playing', undefined);
       this.settle();
     }

@@ -110,11 +110,19 @@ export function smallImages<T extends { bytes: number }>(images: readonly T[]): 
   return [...images].sort((a, b) => a.bytes - b.bytes).filter(({ bytes }) => (sum += bytes) <= firstImageBytes);
 }
 
+/** The images that the first picture waits for: a face that stands still waits for all. */
+export function firstImages<T extends { bytes: number }>(images: readonly T[], isStill: boolean): readonly T[] {
+  return isStill ? images : smallImages(images);
+}
+
 /** Images by their hash, each fetched and decoded once; a face's levels of detail share them. */
 export class Images {
   private readonly known = new Map<string, Promise<ImageBitmap>>();
 
-  constructor(private readonly source: Source) {}
+  constructor(
+    private readonly source: Source,
+    private readonly isStill: boolean,
+  ) {}
 
   get(sha256: string): Promise<ImageBitmap> {
     let image = this.known.get(sha256);
@@ -126,11 +134,11 @@ export class Images {
     return image;
   }
 
-  /** Begins with the small images of a rig.json, such as eyes: a face without them looks wrong, not only plain. */
+  /** Begins with the first images of a rig.json, such as eyes: a face without them looks wrong, not only plain. */
   prefetch(rigJson: Response): void {
     void rigJson.json().then(
       (rig: { images?: { sha256: string; bytes: number }[] }) => {
-        for (const { sha256 } of smallImages(rig.images ?? [])) void this.get(sha256).catch(() => undefined);
+        for (const { sha256 } of firstImages(rig.images ?? [], this.isStill)) void this.get(sha256).catch(() => undefined);
       },
       () => undefined,
     );

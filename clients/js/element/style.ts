@@ -5,7 +5,7 @@ export const styleText = `
   --semblante-text: light-dark(#3a3631, #d8d5d0);
   color-scheme: light dark;
   display: block; position: relative; overflow: hidden; contain: content;
-  width: 320px; height: 400px;
+  width: 320px; height: 400px; container-type: inline-size;
   background: var(--semblante-background); color: var(--semblante-text);
 }
 :host([theme='light']) { color-scheme: light; }
@@ -28,12 +28,13 @@ p {
 p.alone { inset: 0; display: grid; place-content: center; max-width: 34ch; margin: auto; }
 p:empty { display: none; }
 button {
-  position: absolute; left: 50%; bottom: 12%; translate: -50%; min-width: 48px; min-height: 48px; padding: 0 1.4em;
+  position: absolute; left: 50%; bottom: calc(12px + env(safe-area-inset-bottom)); translate: -50%; min-width: 48px; min-height: 48px; padding: 0 1.4em;
   border: 0; border-radius: 24px; font: 600 16px system-ui, sans-serif; cursor: pointer;
   background: light-dark(#2b2925, #f1eee9); color: light-dark(#fff, #1a1a1a);
 }
 button[hidden] { display: none; }
-button.sound { left: 12px; bottom: calc(12px + env(safe-area-inset-bottom)); translate: none; padding: 0 1.1em; font-size: 14px; }
+button.sound { left: 12px; translate: none; padding: 0 1.1em; font-size: 14px; }
+@container (max-width: 559px) { :host(:is([sound], [voice])) button:not(.sound) { bottom: calc(68px + env(safe-area-inset-bottom)); } }
 button:disabled { opacity: 0.7; cursor: default; }
 i { position: absolute; left: 50%; top: 50%; width: 34px; height: 34px; margin: -17px; border-radius: 50%;
   border: 3px solid color-mix(in srgb, currentColor 25%, transparent); border-top-color: currentColor; animation: turn 0.9s linear infinite; }

@@ -3,7 +3,7 @@ import type { ParametrizationOptions } from '../../net/types.ts';
 import { countWords } from '../shared/finding_words.ts';
 import type { PointsModel } from './points_model.ts';
 import { Signal } from '../shared/signal.ts';
-import { needsCare, type Studio } from '../shared/studio.ts';
+import { hasErrors, type Studio } from '../shared/studio.ts';
 import { t } from '../../words/words.ts';
 
 /**
@@ -47,8 +47,7 @@ export class Parametrizer {
       const now = studio.models.value.find((one) => one.id === model.id) ?? model;
       const found = now.findings ? countWords(now.findings) : '';
       studio.toasts.say(t('{name} is ready to animate.', { name: now.name }) + (found === '' ? '' : t(' The fit doctor found {found}.', { found })));
-      if (studio.selected.value?.id === now.id)
-        studio.tab.set(needsCare(now) && (now.findings?.errors ?? 0) > 0 ? 'fit' : 'animate');
+      if (studio.selected.value?.id === now.id) studio.tab.set(hasErrors(now) ? 'fit' : 'animate');
     } catch (error) {
       points.show(error);
       if (points.problems.size > 0) studio.tab.set('points');

@@ -34,9 +34,13 @@ export function uprightBox(studio: Studio, points: PointsModel): HTMLElement {
   ];
   /** The head that is being turned: the question stays until it is answered. */
   let turned = '';
-  const send = (axes: Axes): void => {
+  const send = async (axes: Axes): Promise<void> => {
     const { value: model } = studio.selected;
-    if (model) void studio.setFrame(model, { up: axes.up, front: axes.front });
+    if (model) await studio.setFrame(model, { up: axes.up, front: axes.front });
+  };
+  /** The next step of who has said that a head stands right. */
+  const begin = (id: string): void => {
+    if (studio.selected.value?.id === id && studio.tab.value === 'points' && points.chosen.value === null) points.chooseFirst();
   };
   const draw = (): void => {
     const model = studio.selected.value;
@@ -56,13 +60,16 @@ export function uprightBox(studio: Studio, points: PointsModel): HTMLElement {
           { class: 'row wrap tight' },
           button(t('Yes'), 'yes', () => {
             turned = '';
-            if (standsUncertain(model)) send(axes);
-            else draw();
+            if (standsUncertain(model)) void send(axes).then(() => begin(model.id));
+            else {
+              draw();
+              begin(model.id);
+            }
           }),
           ...turns.map(({ turn, title }) =>
             button(title, turn, () => {
               turned = model.id;
-              send(quarterTurned(axes, turn));
+              void send(quarterTurned(axes, turn));
             }),
           ),
         ),

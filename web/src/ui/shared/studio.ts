@@ -292,12 +292,11 @@ export class Studio {
     const open = this.selected.value;
     if (open?.id !== model.id) return;
     this.selected.set(model);
-    // The open head has just been imported: the next step is placing points, unless the file has findings. Who turned it goes on where it was asked.
+    // The open head has just been imported: the next step is placing points, unless the file has errors. Who turned it goes on where it was asked.
     if (open.state === 'importing' && model.state === 'ready' && this.tab.value !== 'fit' && !this.turning.has(model.id))
-      this.tab.set(needsCare(model) ? 'fit' : 'points');
+      this.tab.set(hasErrors(model) ? 'fit' : 'points');
   }
 }
 
-/** Whether the fit doctor found errors or warnings. */
-export const needsCare = ({ findings }: Model): boolean =>
-  findings !== null && findings.errors + findings.warnings > 0;
+/** Whether the fit doctor found errors. Warnings do not stop the way: the Fit tab's badge tells their number. */
+export const hasErrors = ({ findings }: Model): boolean => findings !== null && findings.errors > 0;
