@@ -82,11 +82,33 @@ export class Shelf {
     studio.selected.watch((model) => {
       if (model?.id === seen) return;
       seen = model?.id;
-      // The list may not be laid out yet.
-      requestAnimationFrame(() => this.list.querySelector('.selected')?.scrollIntoView({ block: 'nearest' }));
+      this.reveal('.selected');
+    });
+    studio.tab.watch((tab) => {
+      if (tab === 'heads') this.reveal('.selected');
     });
     studio.activities.watch(draw);
     studio.shelf.watch(draw);
+  }
+
+  /** Scrolls to an item, once the list is laid out. */
+  private reveal(item: string): void {
+    requestAnimationFrame(() => this.list.querySelector(item)?.scrollIntoView({ block: 'nearest' }));
+  }
+
+  /** Where the open head stood in the list when it was last drawn. */
+  private place = -1;
+  private uploads = 0;
+
+  /** Keeps in sight what the list moves: an upload stands at its head, and a head that is new gets its place by the server's order. */
+  private followMoves(): void {
+    const { models, selected, activities } = this.studio;
+    const place = models.value.findIndex(({ id }) => id === selected.value?.id);
+    const uploads = [...activities.value.keys()].filter(isUpload).length;
+    if (uploads > this.uploads) this.reveal('.uploading');
+    else if (place !== this.place && isSeen(this.list.querySelector('.selected'))) this.reveal('.selected');
+    this.place = place;
+    this.uploads = uploads;
   }
 
   draw(): void {
@@ -118,9 +140,10 @@ export class Shelf {
     }
     const items: HTMLElement[] = [];
     for (const [key, activity] of studio.activities.value)
-      if (key.startsWith('upload-')) items.push(this.uploadItem(activity));
+      if (isUpload(key)) items.push(this.uploadItem(activity));
     for (const model of studio.models.value) items.push(this.item(model, studio.activities.value.get(model.id)));
     if (items.length === 0) items.push(h('li', { class: 'empty' }, t('No heads yet.')));
+    this.followMoves();
     replace(this.list, ...items);
     if (focused) this.list.querySelector<HTMLElement>(`[data-model="${CSS.escape(focused)}"] .open`)?.focus();
   }
@@ -242,4 +265,15 @@ export class Shelf {
     });
     if (yes !== null) await this.studio.remove(model);
   }
+}
+
+/** Whether an activity is that of a file that is being sent. */
+const isUpload = (key: string): boolean => key.startsWith('upload-');
+
+/** Whether an item of the list is within the part of it that is shown. */
+function isSeen(item: Element | null): boolean {
+  if (!item) return false;
+  const { top, bottom, left } = item.getBoundingClientRect();
+  const middle = (top + bottom) / 2;
+  return bottom > top && item.contains(document.elementFromPoint(left + 20, middle));
 }
