@@ -63,8 +63,10 @@ describe('fit', () => {
     await studio.drop(damagedBall());
     await studio.waitForState('ready');
     await studio.waitForStage('ready');
-    // The Fit tab opens automatically, because the file has findings.
-    await page.locator('#tab-fit[aria-selected="true"] .finding-badge').waitFor();
+    // A warning does not stop the way to the points: the Fit tab tells of it.
+    await page.locator('#tab-points[aria-selected="true"]').waitFor();
+    await page.locator('#tab-fit .finding-badge').click();
+    await page.locator('#tab-fit[aria-selected="true"]').waitFor();
     const finding = page.locator('.finding[data-code="duplicate-triangles"]');
     expect(await finding.locator('.finding-words').innerText()).toMatch(/^[A-Z\d].*\.$/);
     expect(await finding.locator('.remedy').innerText()).not.toBe('');

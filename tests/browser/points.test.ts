@@ -59,6 +59,31 @@ describe('feature points', () => {
     await studio.close();
   });
 
+  test('Points_ClickJustBesideTheHead_LiesOnItsOutline_FartherOffNowhere', async () => {
+    const studio = await openNew('outline.glb');
+    const { page } = studio;
+    await page.getByRole('button', { name: 'Start', exact: true }).click();
+    await page.waitForFunction(() => location.hash.includes('point='));
+    await studio.drawn(3);
+    /** The highest place of the head in the middle of the picture, CSS pixels. */
+    const top = await page.evaluate(() => {
+      interface Preview {
+        pick(x: number, y: number, camera: unknown): object | null;
+      }
+      const { scene } = (window as unknown as { semblante: { scene: { preview: Preview; stage: { camera: unknown } } } }).semblante;
+      const box = document.querySelector('canvas.canvas')!.getBoundingClientRect();
+      let y = 0;
+      while (y < box.height && scene.preview.pick(0, 1 - (2 * y) / box.height, scene.stage.camera) === null) y += 1;
+      return { x: box.left + box.width / 2, y: box.top + y };
+    });
+    await page.mouse.click(top.x, top.y - 24);
+    await page.getByText(/\b0 of 84 placed/).waitFor();
+    await page.mouse.click(top.x, top.y - 7);
+    await page.getByText(/\b1 of 84 placed/).waitFor();
+    expect(studio.errors).toEqual([]);
+    await studio.close();
+  });
+
   test('Points_NoneYet_PanelLeadsThroughThemByPointerAndKeyboard', async () => {
     const studio = await openNew('guided.glb');
     const { page } = studio;

@@ -14,6 +14,9 @@ const atMarker = 0.12;
 
 /** A click this near to a vertex means the vertex, CSS pixels: on a dense head there is one under every pointer. */
 const atVertex = 5;
+/** How far around a click beside the head its skin is looked for, CSS pixels, nearest first. */
+const besideHead = [0, 3, 6, 9, 12];
+const directions = 12;
 /** How far from its exact image the place of the other side may be, in radii of the head. */
 const mirrorReach = 0.12;
 
@@ -44,6 +47,19 @@ export class PointPicker {
     });
     if (!pick) return null;
     return { point: this.placeOf(id, pick, x, y), part: pick.part };
+  }
+
+  /** The same for a click, which may fall just beside the head: the chin and the top of the skull lie on its outline. */
+  pickNear(id: string, x: number, y: number): PickedPoint | null {
+    const { clientWidth: width, clientHeight: height } = this.scene.stage.canvas;
+    for (const away of besideHead) {
+      for (let turn = 0; turn < (away === 0 ? 1 : directions); turn += 1) {
+        const angle = (turn / directions) * 2 * Math.PI;
+        const picked = this.pick(id, x + (2 * away * Math.cos(angle)) / width, y + (2 * away * Math.sin(angle)) / height);
+        if (picked) return picked;
+      }
+    }
+    return null;
   }
 
   private placeOf(id: string, { place, fileVertex, position, hit }: Pick, x: number, y: number): PlacedPoint {

@@ -172,7 +172,7 @@ export class StagePanel {
 
   /** Places the selected point on the head at `x`, `y` (normalized device coordinates, -1..1 from the lower left). */
   private placeAt(x: number, y: number): void {
-    const pick = this.picker.pick(this.points.chosen.value ?? '', x, y);
+    const pick = this.picker.pickNear(this.points.chosen.value ?? '', x, y);
     if (pick) this.points.place(pick.point);
   }
 
