@@ -78,6 +78,18 @@ TEST(SoundReader, ReadsTheFilesThatPeopleHave) {
   }
 }
 
+TEST(SoundReader, OggStreamsOneAfterAnother_AreOneSound) {
+  const std::string opus = tone_file(SF_FORMAT_OGG | SF_FORMAT_OPUS, 48'000);
+  const std::string vorbis = tone_file(SF_FORMAT_OGG | SF_FORMAT_VORBIS, 44'100);
+  const auto sound = read_sound(reader, opus + vorbis + opus);
+  ASSERT_TRUE(sound) << sound.error().message;
+  EXPECT_EQ(sound->sample_rate, 48'000U);
+  EXPECT_NEAR(static_cast<double>(sound->samples.size()) / 48'000, 4.5, 0.18);
+  const auto cut = read_sound(reader, opus + vorbis.substr(0, 40));
+  ASSERT_TRUE(cut) << cut.error().message;
+  EXPECT_NEAR(static_cast<double>(cut->samples.size()) / 48'000, 1.5, 0.06);
+}
+
 TEST(SoundReader, OfASmallFile_NeedsLittleMemory) {
   VoiceProgram small = reader;
   small.memory_bytes = std::uint64_t{200} << 20U;  // less than the largest file
