@@ -35,8 +35,8 @@ bool is_sentence_end(std::string_view text);
 /// Where a word that begins at a byte is written from: at the quotation marks and brackets before it.
 std::size_t with_opening(std::string_view text, std::size_t byte);
 
-/// Whether a text begins with a character that is written on the one before it: vowels and tones of scripts that write no
-/// spaces, accents, and what joins emoji.
+/// Whether a text begins with a character that is written on the one before it: vowels and tones of scripts that write
+/// no spaces, accents, and what joins emoji.
 bool joins_before(std::string_view text);
 
 /// Whether a part may end between `before`, of so many letters, and `after` although no sentence ends there.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/types/percent_decode.h"
+#include "server/http/message.h"
 
 namespace semblante::http {
 std::optional<Target> parse_target(std::string_view target) {
@@ -32,6 +33,18 @@ std::optional<Target> parse_target(std::string_view target) {
     result.query.try_emplace(std::move(*key), std::move(*value));
   }
   return result;
+}
+
+std::optional<AbsoluteTarget> absolute_target(std::string_view target) {
+  for (const std::string_view scheme : {"http://", "https://"}) {
+    if (!equal_ignoring_case(target.substr(0, scheme.size()), scheme)) continue;
+    target.remove_prefix(scheme.size());
+    const std::string_view authority = target.substr(0, target.find_first_of("/?#"));
+    if (authority.empty()) return std::nullopt;
+    target.remove_prefix(authority.size());
+    return AbsoluteTarget{authority, (target.starts_with('/') ? "" : "/") + std::string(target)};
+  }
+  return std::nullopt;
 }
 
 }  // namespace semblante::http

@@ -64,7 +64,11 @@ void RequestParser::on_request_impl(boost::beast::http::verb, View method, View 
     return;
   }
   request_.target = view(target);
-  auto parsed = http::parse_target(view(target));
+  if (auto absolute = http::absolute_target(view(target))) {
+    authority_ = absolute->authority;
+    request_.target = std::move(absolute->rest);
+  }
+  auto parsed = http::parse_target(request_.target);
   if (!parsed) {
     problem_ = http::make_problem("malformed-request",
                                   "the request target is not a path, or has an encoded slash, "
@@ -96,6 +100,8 @@ void RequestParser::on_field_impl(boost::beast::http::field field, View name, Vi
 void RequestParser::on_header_impl(ErrorCode& error) {
   request_.received = std::chrono::steady_clock::now();
   if (!problem_) problem_ = ambiguity();
+  // What the target says is the host, whatever the field says (RFC 9112, 3.2.2).
+  if (!authority_.empty()) request_.headers["Host"] = authority_;
   if (problem_) error = E::bad_field;
 }
 

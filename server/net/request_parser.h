@@ -66,6 +66,7 @@ class RequestParser : public boost::beast::http::basic_parser<true> {
   unsigned version_ = 11;
   std::uint32_t fields_ = 0;
   std::uint32_t hosts_ = 0;  ///< number of Host fields
+  std::string authority_;    ///< of a target in absolute form
   std::size_t extension_bytes_ = 0;
   std::uint64_t body_bytes_ = 0, framing_bytes_ = 0;  ///< the second: sizes, extensions and line breaks of chunks
   BodySink* sink_ = nullptr;

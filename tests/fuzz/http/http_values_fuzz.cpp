@@ -26,6 +26,7 @@ void expect(bool fact) {
 }
 
 void read_target(std::string_view text) {
+  (void)http::absolute_target(text);
   const auto target = http::parse_target(text);
   if (target) expect(target->path.starts_with('/') && target->path.find('\0') == std::string::npos);
   for (const bool plus_is_space : {false, true}) {

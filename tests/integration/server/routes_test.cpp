@@ -470,6 +470,18 @@ TEST_F(Routes, RequestsToAForeignName_AreRefused) {
   expect_problem(socket, 421, "foreign-host");
 }
 
+TEST_F(Routes, TargetsInAbsoluteForm_AreServed_AndTheirHostCounts) {
+  const auto get = [&](const std::string& target, const std::string& host) {
+    return parse_reply(
+        raw_exchange(port(), "GET " + target + " HTTP/1.1\r\nHost: " + host + "\r\nConnection: close\r\n\r\n"));
+  };
+  EXPECT_EQ(get("http://localhost:1/version", "localhost").status, 200);
+  EXPECT_EQ(get("http://localhost/version", "rebound.example").status, 200);
+  expect_problem(get("http://rebound.example/version", "localhost"), 421, "foreign-host");
+  expect_problem(get("http://localhost@rebound.example/version", "localhost"), 421, "foreign-host");
+  expect_problem(get("http:///version", "localhost"), 400, "malformed-request");
+}
+
 TEST_F(Routes, Uploads_OverTheLimitOrNoModel_AreRefused) {
   const Fields type = {{"Content-Type", "application/octet-stream"}};
   expect_problem(request(port(), "POST", "/v1/models", std::string(300'001, 'x'), type), 413, "content-too-large");

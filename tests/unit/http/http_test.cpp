@@ -1,3 +1,7 @@
+#include <array>
+#include <string>
+#include <vector>
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -22,6 +26,22 @@ TEST(Url, Target_IsTakenApart) {
   ASSERT_TRUE(target);
   EXPECT_EQ(target->path, "/v1/a b");
   EXPECT_EQ(target->query, (std::map<std::string, std::string>{{"x", "1+2"}, {"y", "a b"}, {"z", ""}}));
+}
+
+TEST(Url, AbsoluteForm_IsAHostAndATarget) {
+  for (const auto& [target, authority, rest] :
+       std::vector<std::array<std::string, 3>>{{"http://localhost:8080/version?a=1", "localhost:8080", "/version?a=1"},
+                                               {"HTTPS://[::1]/", "[::1]", "/"},
+                                               {"http://head.example", "head.example", "/"},
+                                               {"http://head.example?a", "head.example", "/?a"},
+                                               {"http://a@b/http://c/", "a@b", "/http://c/"}}) {
+    const auto absolute = absolute_target(target);
+    ASSERT_TRUE(absolute) << target;
+    EXPECT_EQ(absolute->authority, authority);
+    EXPECT_EQ(absolute->rest, rest);
+  }
+  for (const auto* target : {"", "/http://a/", "http:///a", "http://", "ftp://a/", "http:/a", "*"})
+    EXPECT_FALSE(absolute_target(target)) << target;
 }
 
 TEST(MediaType, Parameters_MayBeQuotedAndHoldSemicolons) {
