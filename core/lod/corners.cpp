@@ -55,7 +55,6 @@ Corners join(const Model& model, const Surface& surface, std::span<const std::ui
   const bool has_uvs = !model.uvs.empty() && !model.uv_triangles.empty();
   CornerTable table(model, surface.vertex_count(), with_normals);
   Corners out;
-  out.has_normals = with_normals;
   out.triangles.reserve(model.triangles.size());
   for (std::size_t t = 0; t < model.triangles.size(); ++t) {
     std::array<std::uint32_t, 3> triangle{};

@@ -22,14 +22,13 @@ struct Corner {
 struct Corners {
   std::vector<Corner> corners;                          ///< #C
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< #T by 3, into corners
-  bool has_normals = false;  ///< false also where the file's normals part most vertices (flat shading): not kept
 };
 
 /// Merges equal corners of `model`, independent of their file vertices and indices, because files split vertices
 /// unnecessarily. Labels (one per triangle, or none) define the borders between materials.
 ///
-/// Normals less than 10 degrees apart count as equal, because files round them. Without `with_normals`, or if the model
-/// has none, normals are ignored.
+/// Normals less than 10 degrees apart count as equal, because files round them. Normals are ignored without
+/// `with_normals`, if the model has none, and if they part most vertices (flat shading).
 Corners join_corners(const Model& model, const Surface& surface, std::span<const std::uint8_t> labels,
                      bool with_normals);
 

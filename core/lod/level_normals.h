@@ -25,7 +25,8 @@ CornerNormals corner_normals(const Model& model, const Surface& surface, const C
 /// count by how far they face along the mean, so that what is behind a rim (the inside of the mouth) does not turn the
 /// rim. Where the surface is smooth the mean is no better: a vertex is rarely in the middle of what it replaces.
 ///
-/// `kept`: #C, the corner that each one became. The result is #C, unit length, of use only at corners that are left.
+/// `kept`: #C, for each corner of the full mesh the corner of the level that it was collapsed into, or itself. Returns
+/// #C normals of unit length; only those of the level's corners have a meaning.
 std::vector<glm::vec3> level_normals(const CornerNormals& full, std::span<const std::uint32_t> kept);
 
 }  // namespace semblante

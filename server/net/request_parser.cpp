@@ -100,7 +100,7 @@ void RequestParser::on_field_impl(boost::beast::http::field field, View name, Vi
 void RequestParser::on_header_impl(ErrorCode& error) {
   request_.received = std::chrono::steady_clock::now();
   if (!problem_) problem_ = ambiguity();
-  // What the target says is the host, whatever the field says (RFC 9112, 3.2.2).
+  // The host of a target in absolute form replaces the Host field (RFC 9112, 3.2.2).
   if (!authority_.empty()) request_.headers["Host"] = authority_;
   if (problem_) error = E::bad_field;
 }

@@ -63,7 +63,7 @@ describe('fit', () => {
     await studio.drop(damagedBall());
     await studio.waitForState('ready');
     await studio.waitForStage('ready');
-    // A warning does not stop the way to the points: the Fit tab tells of it.
+    // A head with warnings opens on the Points tab; the badge of the Fit tab has their number.
     await page.locator('#tab-points[aria-selected="true"]').waitFor();
     await page.locator('#tab-fit .finding-badge').click();
     await page.locator('#tab-fit[aria-selected="true"]').waitFor();

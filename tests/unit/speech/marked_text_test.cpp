@@ -134,7 +134,7 @@ TEST(MarkedText, FirstPart_EndsAtTheSignsOfOtherScripts) {
   EXPECT_EQ(first(clause + repeated("今", 100)), clause);
   EXPECT_EQ(first(repeated("ก", 1000)), repeated("ก", 12));
   EXPECT_EQ(first(repeated("ก", 9) + " " + repeated("ก", 60)), repeated("ก", 9) + " ");
-  // A vowel or tone stays with its letter; a text of nothing else is cut all the same.
+  // A text is not cut between a letter and its vowel or tone, unless it has nothing but vowels.
   EXPECT_EQ(first(repeated("ก", 11) + "ดี" + repeated("ม", 60)), repeated("ก", 11) + "ดี");
   EXPECT_EQ(first(repeated("ี", 1000)), repeated("ี", 24));
   for (const char* letter : {"ກ", "བ", "ሀ", "ក"}) EXPECT_EQ(first(repeated(letter, 1000)), repeated(letter, 12));
