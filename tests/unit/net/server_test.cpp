@@ -250,7 +250,7 @@ TEST_F(ServerTest, TargetThatCannotBeRead_IsAnsweredWithWhatCanBeWrong) {
   for (const auto& [target, words] : {std::pair{"/a b", "has a space that is not %20"},
                                       {"/a?b=%zz", "a % without two hexadecimal digits"},
                                       {"/a%2Fb", "an encoded slash"},
-                                      {"http://localhost/", "is not a path"}}) {
+                                      {"ftp://localhost/", "is not a path"}}) {
     SCOPED_TRACE(target);
     const Client client(port_);
     client.send(get(target));
