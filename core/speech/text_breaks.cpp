@@ -12,7 +12,7 @@ namespace {
 /// Before a space only: "3.5", "a.b", "e.g.".
 constexpr std::array<std::string_view, 8> spaced = {".", "!", "?", "\n", "…", "؟", "۔", "।"};
 constexpr std::array<std::string_view, 4> unspaced = {"。", "！", "？", "｡"};
-constexpr std::array<std::string_view, 7> clause_signs = {",", ";", ":", "،", "，", "、", "；"};
+constexpr std::array<std::string_view, 8> clause_signs = {",", ";", ":", "،", "؛", "，", "、", "；"};
 /// Quotation marks and brackets, before a word and after it. A mark of one language's beginnings may end in another.
 constexpr std::array<std::string_view, 14> opening = {"\"", "'", "(", "[", "{",  "“",  "‘",
                                                       "„",  "«", "¿", "¡", "「", "『", "（"};
@@ -40,6 +40,15 @@ std::size_t ending(std::string_view text, std::span<const std::string_view> sign
 bool ends_with_one(std::string_view text, std::span<const std::string_view> signs) { return ending(text, signs) > 0; }
 bool ends_with_sign(std::string_view text) {
   return ends_with_one(text, clause_signs) || ends_with_one(text, spaced) || ends_with_one(text, unspaced);
+}
+/// A text without the spaces, quotation marks and brackets at its end.
+std::string_view without_closing(std::string_view text) {
+  while (!text.empty()) {
+    const std::size_t bytes = is_space(text.back()) ? 1 : ending(text, closing);
+    if (bytes == 0) break;
+    text.remove_suffix(bytes);
+  }
+  return text;
 }
 
 }  // namespace
@@ -92,12 +101,13 @@ bool ends_sentence(std::string_view text, std::size_t bytes) {
 }
 
 bool is_sentence_end(std::string_view text) {
-  while (!text.empty()) {
-    const std::size_t bytes = is_space(text.back()) ? 1 : ending(text, closing);
-    if (bytes == 0) break;
-    text.remove_suffix(bytes);
-  }
+  text = without_closing(text);
   return ends_with_one(text, spaced) || ends_with_one(text, unspaced);
+}
+
+bool ends_clause(std::string_view text) {
+  text = without_closing(text);
+  return ends_with_one(text, clause_signs) || ends_with_one(text, unspaced);
 }
 
 std::size_t with_opening(std::string_view text, std::size_t byte) {

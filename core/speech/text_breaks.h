@@ -32,6 +32,10 @@ bool ends_sentence(std::string_view text, std::size_t bytes);
 /// Whether a text ends with the end of a sentence, with the spaces, quotation marks and brackets after it.
 bool is_sentence_end(std::string_view text);
 
+/// Whether a text ends with the end of a clause ("," and the like, or a sign of an East Asian script that ends a
+/// sentence), with the spaces, quotation marks and brackets after it.
+bool ends_clause(std::string_view text);
+
 /// Where a word that begins at a byte is written from: at the quotation marks and brackets before it.
 std::size_t with_opening(std::string_view text, std::size_t byte);
 

@@ -25,7 +25,10 @@ interface Piece {
   time: number;
 }
 
-/** The cues of a text: all of it, in as few parts of about the same length as fit. */
+/**
+ * The cues of a text: all of it, in as few parts of about the same length as fit. WebVTT divides alike
+ * (core/speech/cues.h); both are tested by tests/golden/speech/cues.json.
+ */
 export function cuesOf({ text, score, mediaTime, duration, language }: SpokenText): Cue[] {
   const pieces = piecesOf(text, score, duration);
   const first = pieces[0];
@@ -45,7 +48,7 @@ export function cuesOf({ text, score, mediaTime, duration, language }: SpokenTex
     if (!before || before.begin < begin.begin || wide(begin.begin, last) <= most) return;
     const has = wide(begin.begin, before.end);
     // The end of a clause is a good place to divide, if the rest then needs no more parts.
-    const isClause = has >= target * 0.6 && /[,;:،؛、，。]["'”’)]*$/.test(text.slice(before.begin, before.end)) && partsOf(pieces.slice(i), wide) < parts - cues.length;
+    const isClause = has >= target * 0.6 && /[,;:،؛、，；。！？｡]["')\]}”’»」』）]*$/.test(text.slice(before.begin, before.end)) && partsOf(pieces.slice(i), wide) < parts - cues.length;
     if (has < target && !isClause && wide(begin.begin, piece.end) <= most) return;
     close(before.end);
     begin = piece;

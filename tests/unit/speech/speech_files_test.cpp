@@ -1,19 +1,20 @@
 // Sound and captions of an utterance as files.
+#include <fstream>
 #include <regex>
 #include <sstream>
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
+#include "core/speech/characters.h"
 #include "core/speech/loudness.h"
 #include "core/speech/speech.h"
+#include "core/speech/text_breaks.h"
 #include "core/speech/wav.h"
 #include "core/speech/whole_words.h"
 
 namespace semblante {
 namespace {
-
-using ::testing::ElementsAre;
 
 TEST(WebVtt, WordsWithoutSpaceBetween_AreJoined) {
   Utterance said;
@@ -43,25 +44,32 @@ TEST(WebVtt, HasEachWordWithItsTime_ASentenceACue_AndNoMarkup) {
             "00:00:01.500 --> 00:00:02.500\n&lt;a&amp;\n");
 }
 
-TEST(WebVtt, ALongSentence_IsInCuesOfAboutTheSameLength) {
-  const std::string text =
-      "I'm sorry that the very long sentence which follows has to be shown in more than one piece, because nobody can "
-      "read thirty words at once on a phone. Bye.";
+/// The cues of a text, without times, if every word takes 300 ms.
+std::vector<std::string> cues_of(std::string_view text) {
+  const Characters characters(text);
+  const auto is_blank = [&](std::size_t i) { return i == characters.count() || is_space(text[characters.byte_of(i)]); };
   Utterance said;
-  for (std::size_t at = 0; at < text.size(); at = text.find(' ', at) + 1) {
-    const std::size_t end = std::min(text.find(' ', at), text.size());
-    said.words.push_back({300.0 * static_cast<double>(said.words.size()), {at, end - at}});
-    if (end == text.size()) break;
+  for (std::size_t begin = 0, end = 0; begin < characters.count(); begin = end + 1) {
+    for (end = begin; !is_blank(end);) ++end;
+    said.words.push_back({300.0 * static_cast<double>(said.words.size()), {begin, end - begin}});
   }
   said.duration = 300.0 * static_cast<double>(said.words.size());
-  said.sentences = {{0, 0}, {said.words.back().time, text.find("Bye")}};
+  said.sentences = {{0, 0}};
   std::istringstream vtt(std::regex_replace(web_vtt(said, text), std::regex("<[^>]*>"), ""));
   std::vector<std::string> cues;
   for (std::string line; std::getline(vtt, line);)
     if (!line.empty() && line != "WEBVTT" && line.find("-->") == std::string::npos) cues.push_back(line);
-  EXPECT_THAT(cues, ElementsAre("I'm sorry that the very long sentence which follows",
-                                "has to be shown in more than one piece, because nobody",
-                                "can read thirty words at once on a phone.", "Bye."));
+  return cues;
+}
+
+TEST(WebVtt, SentencesAreDividedAsInPages) {
+  std::ifstream file(SEMBLANTE_SOURCE_DIR "/tests/golden/speech/cues.json");
+  const auto vectors = nlohmann::json::parse(file);
+  ASSERT_GE(vectors.size(), 10U);
+  for (const auto& vector : vectors) {
+    const auto text = vector.at("text").get<std::string>();
+    EXPECT_EQ(cues_of(text), vector.at("cues").get<std::vector<std::string>>()) << text;
+  }
 }
 
 TEST(WebVtt, WordsOutsideTheText_DoNoHarm) {

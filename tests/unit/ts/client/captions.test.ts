@@ -1,3 +1,4 @@
+import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
 import { cuesOf } from '../../../../clients/js/captions/cues.ts';
 import { StreamCaptions, type Cue } from '../../../../clients/js/captions/index.ts';
@@ -30,13 +31,10 @@ describe('cuesOf', () => {
     expect(cues[0]!.end).toBe(cues[1]!.begin);
   });
 
-  it('No word is left over for a line of its own', () => {
-    const text = "I'm sorry that the very long sentence which follows has to be shown in more than one piece, because nobody can read thirty words at once on a phone.";
-    expect(cuesOf(said(text)).map((cue) => cue.text)).toEqual([
-      "I'm sorry that the very long sentence which follows",
-      'has to be shown in more than one piece,',
-      'because nobody can read thirty words at once on a phone.',
-    ]);
+  it('Texts are divided as in WebVTT', () => {
+    const vectors = JSON.parse(readFileSync(new URL('../../../golden/speech/cues.json', import.meta.url), 'utf8')) as { text: string; cues: string[] }[];
+    expect(vectors.length).toBeGreaterThanOrEqual(10);
+    for (const { text, cues } of vectors) expect(cuesOf(said(text)).map((cue) => cue.text)).toEqual(cues);
   });
 
   it('Words longer than a line, and languages without spaces, are divided too', () => {
