@@ -190,6 +190,7 @@ function main(root: HTMLElement, base: string, session: Session | null, theme: H
     await Promise.all([studio.start(), live.refresh()]);
     if (scene.state.value.kind === 'failed' && studio.selected.value) void scene.open(studio.selected.value);
   };
+  extras.prepend(shelf.addButton('narrow-only'));
   const layout = makeLayout(studio, panels, [stagePanel.element, compare.seat], extras, offlineNote(api.base, () => void back()));
   layout.append(progressSaid(studio, scene), toasts.element);
   root.replaceChildren(layout);

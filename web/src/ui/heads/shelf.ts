@@ -52,17 +52,7 @@ export class Shelf {
         'header',
         { class: 'section-head' },
         h('h2', {}, t('Heads')),
-        h(
-          'button',
-          {
-            type: 'button',
-            class: 'quiet square',
-            'aria-label': t('Upload a head'),
-            title: t('Upload a head'),
-            on: { click: this.choose },
-          },
-          icon('plus'),
-        ),
+        this.addButton('wide-only'),
       ),
       this.list,
       h(
@@ -89,6 +79,21 @@ export class Shelf {
     });
     studio.activities.watch(draw);
     studio.shelf.watch(draw);
+  }
+
+  /** A narrow page has it in its bar, since the shelf is one of the tabs there: see layout.css. */
+  addButton(where: 'wide-only' | 'narrow-only'): HTMLElement {
+    return h(
+      'button',
+      {
+        type: 'button',
+        class: `quiet square ${where}`,
+        'aria-label': t('Upload a head'),
+        title: t('Upload a head'),
+        on: { click: this.choose },
+      },
+      icon('plus'),
+    );
   }
 
   /** Scrolls to an item, once the list is laid out. */
