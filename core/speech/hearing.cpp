@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/listen/viseme_listener.h"
-#include "core/speech/viseme_symbols.h"
+#include "core/speech/timelines/viseme_symbols.h"
 
 namespace semblante {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "core/speech/sounds.h"
 #include "core/speech/speech.h"
-#include "core/speech/viseme_symbols.h"
+#include "core/speech/timelines/viseme_symbols.h"
 
 namespace semblante {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/speech/viseme_symbols.h"
+#include "core/speech/timelines/viseme_symbols.h"
 
 namespace semblante::visemes {
 namespace {

@@ -22,9 +22,9 @@ struct VisemeSymbols {
 };
 
 namespace visemes {
-extern constinit const VisemeSymbols azure;    ///< azure_visemes.cpp
-extern constinit const VisemeSymbols polly;    ///< polly_visemes.cpp
-extern constinit const VisemeSymbols rhubarb;  ///< rhubarb_shapes.cpp
+extern constinit const VisemeSymbols azure;    ///< azure.cpp
+extern constinit const VisemeSymbols polly;    ///< polly.cpp
+extern constinit const VisemeSymbols rhubarb;  ///< rhubarb.cpp
 extern constinit const VisemeSymbols oculus;   ///< oculus_visemes.cpp
 }  // namespace visemes
 
