@@ -18,10 +18,11 @@ test('Studio_ManyHeads_TheStepsStayInSight', async () => {
   const studio = await StudioPage.open(browser, 'about:blank', { width: 1280, height: 720, coarse: true });
   const { page } = studio;
   await page.route('**/v1/models?**', async (route) => {
+    if (route.request().method() !== 'GET') return route.continue();
     const answer = await route.fetch();
     const list = (await answer.json()) as { models: { id: string; name: string }[] };
-    const [sample] = list.models;
-    list.models = [...Array.from({ length: 30 }, (_, i) => ({ ...sample!, id: `head${i}`, name: `Head ${i}` })), sample!];
+    const sample = list.models.at(-1)!;
+    list.models = [...Array.from({ length: 30 }, (_, i) => ({ ...sample, id: `head${i}`, name: `Head ${i}` })), ...list.models];
     await route.fulfill({ response: answer, json: list });
   });
   await page.goto(`${server.url}/#sample/animate`);
@@ -32,14 +33,24 @@ test('Studio_ManyHeads_TheStepsStayInSight', async () => {
   };
   expect(await bottom('.steps')).toBeLessThanOrEqual(720);
   expect(await bottom('.shelf-panel > .drop')).toBeLessThanOrEqual(720);
+  const inSight = (name: string): Promise<unknown> =>
+    page.waitForFunction((name) => {
+      const open = document.querySelector('.head.selected');
+      if (!open?.textContent?.includes(name)) return false;
+      const [list, item] = [open.closest('.heads')!, open].map((element) => element.getBoundingClientRect());
+      return item!.top >= list!.top - 1 && item!.bottom <= list!.bottom + 1;
+    }, name);
   // The open head is the last of the list: it is scrolled to.
-  await page.waitForFunction(() => {
-    const [list, open] = ['.heads', '.head.selected'].map((selector) => document.querySelector(selector)!.getBoundingClientRect());
-    return open!.top >= list!.top - 1 && open!.bottom <= list!.bottom + 1;
-  });
+  await inSight('Sample head');
   await studio.keep('many-heads');
+  // So is one that comes, wherever the person has scrolled to.
+  await page.locator('.heads').evaluate((list) => list.scrollTo(0, 0));
+  await studio.dropText('wedge.obj', 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n');
+  await inSight('wedge');
+  const wedge = await page.evaluate(() => (window as unknown as Inside).semblante.studio.selected.value!.id);
   expect(studio.errors).toEqual([]);
   await studio.close();
+  await fetch(`${server.url}/v1/models/${wedge}`, { method: 'DELETE' });
 });
 
 test('Studio_EmptyServer_OffersTheSampleAndLeadsToItsPlay', async () => {
