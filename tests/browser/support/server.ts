@@ -48,6 +48,8 @@ export interface ServerOptions {
   demo?: boolean;
   /** The program that speaks. */
   voice?: string;
+  /** Origins beside its own whose pages may use it; "*": all. */
+  allowOrigin?: string;
 }
 
 interface Started {
@@ -56,12 +58,12 @@ interface Started {
 }
 
 /** Starts the server at a port, on a data folder; resolves once its sample head can be animated. */
-async function start(port: number, data: string, token: string, { pages = webRoot, demo = true, voice = 'none' }: ServerOptions): Promise<Started> {
+async function start(port: number, data: string, token: string, { pages = webRoot, demo = true, voice = 'none', allowOrigin }: ServerOptions): Promise<Started> {
   const url = `http://127.0.0.1:${port}`;
   const headers: Record<string, string> = token === '' ? {} : { Authorization: `Bearer ${token}` };
   const child = spawn(
     join(buildDir, 'bin/semblante'),
-    ['serve', '--port', String(port), '--data', data, '--web-root', pages, '--sample', sampleHead, '--voice-program', voice, ...(demo ? ['--demo'] : []), ...(token === '' ? [] : ['--require-tokens'])],
+    ['serve', '--port', String(port), '--data', data, '--web-root', pages, '--sample', sampleHead, '--voice-program', voice, ...(demo ? ['--demo'] : []), ...(allowOrigin === undefined ? [] : ['--allow-origin', allowOrigin]), ...(token === '' ? [] : ['--require-tokens'])],
     { stdio: ['ignore', 'pipe', 'pipe'] },
   );
   let output = '';
