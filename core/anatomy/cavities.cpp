@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/anatomy/rim_sides.h"
 #include "core/anatomy/smooth_step.h"
 #include "core/geometry/edge_path_search.h"
 #include "core/geometry/shortest_path.h"
@@ -99,6 +100,7 @@ std::vector<Cavity> find_cavities(const Surface& surface, PartId part, std::span
   std::vector<SurfaceVertexId> pending;
   for (const SurfacePoint& point : points) {
     if (surface.part_of[point.vertex.value()] != part || marked[point.vertex.value()]) continue;
+    if (rim_of_point(point.id).opening != nullptr) continue;  // may be at a vertex on the wrong side of the rim
     marked[point.vertex.value()] = true;
     pending.push_back(point.vertex);
   }

@@ -20,8 +20,10 @@ struct Cavity {
 
 /// The cavities of a part. A rim is the closed line of shortest paths from corner to corner through the points of the
 /// upper and the lower lip (or lid), all of them on this part. Behind it lies what no path joins to any feature point
-/// off the rims without crossing a rim. No cavity where the surface ends at the rim, where points are missing, or where
-/// a point (a tongue's, on a head whose tongue is a part of its skin) lies behind the rim.
+/// away from lips and lids without crossing a rim. Those beside a rim (8.x, folds of lids) do not count: on a coarse
+/// mesh, or guessed, one of them may be at a vertex behind it, and would make the inside of the mouth a front. No
+/// cavity where the surface ends at the rim, where points are missing, or where a point (a tongue's, on a head whose
+/// tongue is a part of its skin) lies behind the rim.
 std::vector<Cavity> find_cavities(const Surface& surface, PartId part, std::span<const SurfacePoint> points);
 
 /// #S: whether a vertex of the skin lies in the mouth, behind the lips: farther from the rim than a lip is thick, along

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/geometry/open_edge.h"
+
 namespace semblante {
 namespace {
 
@@ -13,16 +15,6 @@ constexpr double longest_neck = 1.6;           ///< the narrowest section is no 
 constexpr double shortest_neck = 0.3;          ///< if the neck is cut nearer to the chin, the head turns as a whole
 constexpr double shoulder_widening = 1.6;      ///< shoulders begin where the neck is wider than its least by this
 constexpr double joint_from_shoulders = 0.75;  ///< farther from the neck's joint no shoulders begin
-
-/// Whether fewer than two triangles have the edge: both ends of it are joined to their third vertices.
-bool is_open_edge(const Surface& surface, SurfaceVertexId a, SurfaceVertexId b) {
-  const auto at_a = surface.steps_from(a);
-  const auto at_b = surface.steps_from(b);
-  const auto common = std::count_if(at_a.begin(), at_a.end(), [&](const Surface::Step& from_a) {
-    return std::any_of(at_b.begin(), at_b.end(), [&](const Surface::Step& from_b) { return from_a.to == from_b.to; });
-  });
-  return common < 2;
-}
 
 /// A horizontal section of the skin near the neck's axis.
 struct NeckSection {

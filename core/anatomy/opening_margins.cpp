@@ -9,8 +9,8 @@
 #include <glm/geometric.hpp>
 
 #include "core/anatomy/lid_edge.h"
+#include "core/anatomy/lip_edge.h"
 #include "core/anatomy/smooth_step.h"
-#include "core/geometry/shortest_path.h"
 
 namespace semblante {
 namespace {
@@ -24,12 +24,6 @@ constexpr double closed_height = 0.04;
 constexpr double open_height = 0.12;
 /// From the front, radians: so far from the side closed lids show no gap.
 constexpr double side_view = 1.05;
-
-const SurfacePoint* find(std::span<const SurfacePoint> points, const char* name) {
-  const auto at = std::find_if(points.begin(), points.end(),
-                               [&](const SurfacePoint& p) { return p.id == parse_feature_point(name); });
-  return at != points.end() ? &*at : nullptr;
-}
 
 /// Vertices evenly spaced between the ends of a path, without the ends.
 std::vector<SurfaceVertexId> places_on(const Surface& surface, const std::vector<SurfaceVertexId>& path,
@@ -141,24 +135,60 @@ void add_lids(const Surface& surface, std::span<const SurfacePoint> points, std:
   }
 }
 
-void add_lips(const Surface& surface, std::span<const SurfacePoint> points, std::vector<MarginSite>& sites) {
-  for (const auto& edge : {std::array<const char*, 5>{"2.5", "2.7", "2.2", "2.6", "2.4"},
-                           std::array<const char*, 5>{"2.5", "2.9", "2.3", "2.8", "2.4"}}) {
-    for (std::size_t i = 1; i < edge.size(); ++i) {
-      const SurfacePoint* const a = find(points, edge[i - 1]);
-      const SurfacePoint* const b = find(points, edge[i]);
-      if (a == nullptr || b == nullptr || a->position.x == b->position.x) continue;
-      for (const SurfaceVertexId vertex :
-           places_on(surface, shortest_path(surface, a->vertex, b->vertex), places_of_lip)) {
-        const double x = surface.positions[vertex.value()].x;
-        const double t = std::clamp((x - a->position.x) / (b->position.x - a->position.x), 0.0, 1.0);
-        // The mean of linear interpolation, which has corners at the points, and a curve with slope zero at them.
-        const double to_b = (t + t * t * (3.0 - 2.0 * t)) / 2.0;
-        MarginSite site{vertex, {}};
-        if (to_b < 1.0) site.shares.emplace_back(a->id, 1.0 - to_b);
-        if (to_b > 0.0) site.shares.emplace_back(b->id, to_b);
-        sites.push_back(std::move(site));
+using Shares = std::vector<std::pair<FeaturePointId, double>>;
+
+/// The shares of the points of a lip at a vertex on its edge; none elsewhere.
+Shares shares_on(const Surface& surface, const LipEdge& lip, SurfaceVertexId vertex) {
+  for (std::size_t i = 0; i < lip.between.size(); ++i) {
+    const auto& line = lip.between[i];
+    if (std::find(line.begin(), line.end(), vertex) == line.end()) continue;
+    const SurfacePoint& a = *lip.points[i];
+    const SurfacePoint& b = *lip.points[i + 1];
+    if (a.position.x == b.position.x) continue;
+    const double x = surface.positions[vertex.value()].x;
+    const double t = std::clamp((x - a.position.x) / (b.position.x - a.position.x), 0.0, 1.0);
+    // The mean of linear interpolation, which has corners at the points, and a curve with slope zero at them.
+    const double to_b = (t + t * t * (3.0 - 2.0 * t)) / 2.0;
+    Shares shares;
+    if (to_b < 1.0) shares.emplace_back(a.id, 1.0 - to_b);
+    if (to_b > 0.0) shares.emplace_back(b.id, to_b);
+    return shares;
+  }
+  return {};
+}
+
+Shares mean_of(const Shares& a, const Shares& b) {
+  Shares mean;
+  for (const Shares* const shares : {&a, &b}) {
+    for (const auto& [id, share] : *shares) {
+      const auto at = std::find_if(mean.begin(), mean.end(), [id = id](const auto& m) { return m.first == id; });
+      if (at != mean.end()) {
+        at->second += share / 2.0;
+      } else {
+        mean.emplace_back(id, share / 2.0);
       }
+    }
+  }
+  return mean;
+}
+
+void add_lips(const Surface& surface, std::span<const SurfacePoint> points, std::vector<MarginSite>& sites) {
+  const LipEdges lips = find_lip_edges(surface, points);
+  for (const auto& [lip, other] : {std::pair(&lips.upper, &lips.lower), std::pair(&lips.lower, &lips.upper)}) {
+    for (const auto& line : lip->between) {
+      for (const SurfaceVertexId vertex : places_on(surface, line, places_of_lip)) {
+        Shares shares = shares_on(surface, *lip, vertex);
+        const Shares of_other = shares_on(surface, *other, vertex);
+        if (!of_other.empty()) shares = mean_of(shares, of_other);
+        if (!shares.empty()) sites.push_back({vertex, std::move(shares)});
+      }
+    }
+    for (std::size_t i = 1; i + 1 < lip->points.size(); ++i) {
+      if (lip->points[i] == nullptr) continue;
+      const SurfaceVertexId vertex = lip->points[i]->vertex;
+      const Shares shares = shares_on(surface, *lip, vertex);
+      const Shares of_other = shares_on(surface, *other, vertex);
+      if (!shares.empty() && !of_other.empty()) sites.push_back({vertex, mean_of(shares, of_other), true});
     }
   }
 }
@@ -169,14 +199,14 @@ std::vector<MarginSite> margin_sites(const Surface& surface, std::span<const Sur
   std::vector<MarginSite> sites;
   add_lids(surface, points, sites);
   add_lips(surface, points, sites);
-  // A vertex with a point follows that point; a vertex shared by two edges follows the first.
+  // A vertex with a point follows that point, unless it is on the line of both lips.
   std::vector<MarginSite> result;
   for (MarginSite& site : sites) {
     const bool is_point =
         std::any_of(points.begin(), points.end(), [&](const SurfacePoint& p) { return p.vertex == site.vertex; });
     const bool is_known =
         std::any_of(result.begin(), result.end(), [&](const MarginSite& s) { return s.vertex == site.vertex; });
-    if (!is_point && !is_known) result.push_back(std::move(site));
+    if ((!is_point || site.replaces_points) && !is_known) result.push_back(std::move(site));
   }
   return result;
 }

@@ -13,6 +13,8 @@ namespace semblante {
 struct MarginSite {
   SurfaceVertexId vertex;
   std::vector<std::pair<FeaturePointId, double>> shares;  ///< positive, sum 1
+  /// The vertex has points of both lips, or of one on the line of both: it follows these shares instead.
+  bool replaces_points = false;
 };
 
 /// Places along the edges of lips and lids. They define for the smooth weights how an edge moves between its few
@@ -24,10 +26,13 @@ struct MarginSite {
 ///   upper lid that lies in front of the lower one overlaps it, so that the eye is closed as seen from the side too.
 ///   The shares of an eye that is closed on the neutral face are an arc, which it has when it opens.
 /// - Inner edge of a lip: linear interpolation from point to point, with the same shares for both lips, so that lips
-///   that touch and move equally continue to touch.
+///   that touch and move equally continue to touch. A vertex on the edges of both lips (a mouth that is a line of
+///   single vertices, as on coarse heads) follows the mean of both, points at it included: if it followed the lip of
+///   its point alone, the line would become a zigzag when the mouth opens.
 ///
-/// Edges are shortest paths between the points that bound them; an edge with a missing point has no places. A lid on a
-/// part without corners (a shell behind the fold) ends at its vertices nearest to the corners.
+/// Edges of lids are shortest paths between the points that bound them, for lips see lip_edge.h; an edge with a missing
+/// point has no places. A lid on a part without corners (a shell behind the fold) ends at its vertices nearest to the
+/// corners.
 std::vector<MarginSite> margin_sites(const Surface& surface, std::span<const SurfacePoint> points);
 
 }  // namespace semblante

@@ -79,6 +79,17 @@ std::optional<double> compute_unit(std::size_t unit, const FeaturePointSet& poin
   return length && *length > 0.0 ? std::optional(*length / divisor) : std::nullopt;
 }
 
+/// MW0 of a head with an unmarked outer corner of the lips, from the inner ones: on a damaged or coarse mesh there may
+/// be no vertex for it, and without MW no point of the mouth that also moves sideways would move.
+std::optional<double> mouth_width_of_inner_corners(const FeaturePointSet& points) {
+  if (mean_length(index_of(FapuUnit::mw), points)) return std::nullopt;
+  const FeaturePoint* const left = find_point(points, "2.4");
+  const FeaturePoint* const right = find_point(points, "2.5");
+  if (left == nullptr || right == nullptr) return std::nullopt;
+  const double inner = static_cast<double>(left->position.x) - static_cast<double>(right->position.x);
+  return inner > 0.0 ? std::optional(outer_per_inner_width * inner) : std::nullopt;
+}
+
 /// The points with each pupil at the centre between the corners of its lids, if the lids are closed; else empty.
 std::optional<FeaturePointSet> with_centres_of_closed_eyes(const FeaturePointSet& points) {
   const std::array<const FeaturePoint*, 4> corners = {find_point(points, "3.7"), find_point(points, "3.11"),
@@ -120,6 +131,8 @@ Fapu compute_fapu(const FeaturePointSet& points, const Fapu& by_user) {
   }
   if (const std::optional<double> open = lid_distance_of_open_eye(points); open && !visible)
     fapu.value[index_of(FapuUnit::irisd)] = *open / divisor;
+  if (const std::optional<double> width = mouth_width_of_inner_corners(points))
+    fapu.value[index_of(FapuUnit::mw)] = *width / divisor;
   for (std::size_t unit = 0; unit < fapu_unit_count; ++unit) {
     if (!by_user.value[unit]) continue;
     fapu.value[unit] = by_user.value[unit];

@@ -17,7 +17,7 @@ namespace semblante {
 ///     ES     3.5.x - 3.6.x
 ///     ENS    3.5.y - 9.15.y
 ///     MNS    9.15.y - 2.2.y
-///     MW     8.3.x - 8.4.x
+///     MW     8.3.x - 8.4.x; if one of them is not marked, 2.4.x - 2.5.x times `outer_per_inner_width`
 ///
 /// A unit whose points are missing, or whose points are swapped so that it would not be positive, stays empty.
 ///
@@ -32,6 +32,10 @@ Fapu compute_fapu(const FeaturePointSet& points, const Fapu& by_user = {});
 inline constexpr double closed_lids = 0.06;
 /// Mean diameter of the iris of human adults (11.8 mm) as a fraction of ES0 (63 mm).
 inline constexpr double iris_share = 0.187;
+
+/// Width of the mouth between the outer corners of the lips as a multiple of that between the inner ones: the mean of
+/// 14 marked heads, which have 1.05 to 1.15.
+inline constexpr double outer_per_inner_width = 1.09;
 
 /// Lengths of units given by hand: model units, NOT divided by 1024 (ES0, not ES), by name ("ES").
 using FapuLengths = std::map<std::string, double>;

@@ -97,6 +97,12 @@ double weight_unit(const PointDistances& distances, double eye_separation) {
 WeightTable<double> smooth_part_weights(const Surface& surface, const PointDistances& distances, double eye_separation,
                                         std::span<const MarginSite> margins, const WeightPrior& prior) {
   std::vector<KrigingSite> of_points = point_sites(distances);
+  for (const MarginSite& margin : margins) {
+    if (!margin.replaces_points) continue;
+    const auto at = std::find_if(of_points.begin(), of_points.end(),
+                                 [&](const KrigingSite& site) { return site.vertex == margin.vertex; });
+    if (at != of_points.end()) at->shares = margin.shares;
+  }
   const double unit = unit_length(of_points, eye_separation);
   std::vector<KrigingSite> of_edges = edge_sites(surface, distances, margins);
   SiteKriging points(surface, distances, of_points, unit, between_points);

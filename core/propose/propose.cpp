@@ -185,7 +185,9 @@ class Proposer {
     const PartRole role = role_of_point(id_of(id));
     if (face_.with_role(role).empty()) return refuse(id, "the model has no " + name_of(role));
     if (!images_[id]) {
-      if (const auto vertex = find_on_shape(id, place); vertex && !taken_.contains(*vertex)) {
+      // On a coarse mesh the extreme of the chin may be a vertex of the lip above it.
+      if (const auto vertex = find_on_shape(id, place);
+          vertex && !taken_.contains(*vertex) && order_bounds(id_of(id), settled_).contains(face_.at(*vertex))) {
         return settle(id, {face_.at(*vertex), vertex}, ProposalMethod::shape, error);
       }
     }

@@ -63,6 +63,21 @@ TEST(Cavities, AreNoneWithAPointInside) {
                   .empty());
 }
 
+// A guessed point of the outer lip may be at a vertex behind the rim; that does not make the inside a front.
+TEST(Cavities, HoldAPointOfTheLipsThatIsBehindTheRim) {
+  const auto cavities = cavities_of({{"2.4", at(30, 20)},
+                                     {"2.5", at(10, 20)},
+                                     {"2.6", at(28, 28)},
+                                     {"2.7", at(12, 28)},
+                                     {"2.8", at(28, 12)},
+                                     {"2.9", at(12, 12)},
+                                     {"2.1", at(20, 3)},
+                                     {"8.6", at(13, 25)}});
+  ASSERT_EQ(cavities.size(), 1U);
+  EXPECT_TRUE(holds(cavities[0], at(20, 20)));
+  EXPECT_FALSE(holds(cavities[0], at(20, 35)));
+}
+
 TEST(Cavities, OfTheSampleHeadAreItsMouthBehindTheLips) {
   const Surface surface = build_surface(testing::sample_head_model());
   const auto points = surface_points(surface, testing::sample_head_points());

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string>
 
 #include <gtest/gtest.h>
 
+#include "tests/support/meshes.h"
 #include "tests/support/sample_head_model.h"
 
 namespace semblante {
@@ -95,6 +98,96 @@ TEST_F(OpeningMargins, AreLeftOutWherePointsAreMissing) {
     EXPECT_EQ(share_of(site, "2.6"), 0.0);
     EXPECT_TRUE(share_of(site, "2.4") == 0.0 || share_of(site, "2.8") > 0.0);
   }
+}
+
+/// A coarse plate of columns -4 to 4 and rows -1 to 1. With `slit` the mouth is a hole between two rims that meet at
+/// columns -4 and 4; else one line of vertices is both rims.
+class CoarseMouth {
+ public:
+  explicit CoarseMouth(bool slit) : slit_(slit) {
+    std::vector<glm::vec3> positions;
+    for (const float y : {-1.0F, 0.0F, 1.0F}) {
+      for (int column = -4; column <= 4; ++column) positions.emplace_back(column, y, 0.0F);
+    }
+    for (int column = -3; column <= 3; ++column) positions.emplace_back(column, 0.2F, 0.0F);
+    std::vector<Triangle> triangles;
+    const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t above_a, std::uint32_t above_b) {
+      triangles.push_back({a, b, above_b});
+      triangles.push_back({a, above_b, above_a});
+    };
+    for (int column = -4; column < 4; ++column) {
+      add(chin(column), chin(column + 1), lower(column), lower(column + 1));
+      add(upper(column), upper(column + 1), nose(column), nose(column + 1));
+    }
+    model_ = testing::make_model(std::move(positions), std::move(triangles));
+    surface_ = build_surface(model_);
+  }
+
+  [[nodiscard]] static std::uint32_t chin(int column) { return static_cast<std::uint32_t>(column + 4); }
+  [[nodiscard]] static std::uint32_t lower(int column) { return chin(column) + 9; }
+  [[nodiscard]] static std::uint32_t nose(int column) { return chin(column) + 18; }
+  [[nodiscard]] std::uint32_t upper(int column) const {
+    return slit_ && column > -4 && column < 4 ? static_cast<std::uint32_t>(column + 3 + 27) : lower(column);
+  }
+
+  /// The shares at a vertex, empty without a place there; by name.
+  [[nodiscard]] std::map<std::string, double> shares_at(
+      std::uint32_t vertex, std::initializer_list<std::pair<std::string_view, std::uint32_t>> marks) const {
+    std::map<std::string, double> shares;
+    const auto points = surface_points(surface_, testing::points_at(model_, marks));
+    for (const MarginSite& site : margin_sites(surface_, points)) {
+      if (site.vertex != surface_.surface_of[vertex]) continue;
+      for (const auto& [id, share] : site.shares) shares[to_string(id)] += share;
+    }
+    return shares;
+  }
+
+ private:
+  bool slit_;
+  Model model_;
+  Surface surface_;
+};
+
+using Shares = std::map<std::string, double>;
+
+// The points beside the middle are at the chin's vertices, as a coarse mesh and a guess may have it.
+TEST(OpeningMarginsOfACoarseMouth, FollowTheHoleThoughPointsLieBesideIt) {
+  const CoarseMouth mouth(true);
+  const auto at_rim = [&](std::uint32_t vertex) {
+    return mouth.shares_at(vertex, {{"2.2", mouth.upper(0)},
+                                    {"2.3", mouth.lower(0)},
+                                    {"2.4", mouth.lower(4)},
+                                    {"2.5", mouth.lower(-4)},
+                                    {"2.6", mouth.upper(2)},
+                                    {"2.7", mouth.upper(-2)},
+                                    {"2.8", CoarseMouth::chin(2)},
+                                    {"2.9", CoarseMouth::chin(-2)}});
+  };
+  EXPECT_EQ(at_rim(mouth.lower(1)), (Shares{{"2.3", 0.5}, {"2.8", 0.5}}));
+  EXPECT_EQ(at_rim(mouth.lower(2)), (Shares{{"2.8", 1.0}}));
+  EXPECT_EQ(at_rim(mouth.lower(-1)), (Shares{{"2.3", 0.5}, {"2.9", 0.5}}));
+  EXPECT_EQ(at_rim(mouth.upper(1)), (Shares{{"2.2", 0.5}, {"2.6", 0.5}}));
+  EXPECT_TRUE(at_rim(CoarseMouth::chin(1)).empty());
+}
+
+TEST(OpeningMarginsOfACoarseMouth, OnALineOfBothLipsAreTheMeanOfBoth) {
+  const CoarseMouth mouth(false);
+  const auto at_line = [&](std::uint32_t vertex) {
+    return mouth.shares_at(vertex, {{"2.2", mouth.lower(0)},
+                                    {"2.3", mouth.lower(0)},
+                                    {"2.4", mouth.lower(4)},
+                                    {"2.5", mouth.lower(-4)},
+                                    {"2.6", mouth.lower(1)},
+                                    {"2.7", mouth.lower(-1)},
+                                    {"2.8", mouth.lower(2)},
+                                    {"2.9", mouth.lower(-2)}});
+  };
+  EXPECT_EQ(at_line(mouth.lower(0)), (Shares{{"2.2", 0.5}, {"2.3", 0.5}}));
+  EXPECT_EQ(at_line(mouth.lower(1)), (Shares{{"2.6", 0.5}, {"2.3", 0.25}, {"2.8", 0.25}}));
+  const Shares beside = at_line(mouth.lower(2));
+  EXPECT_EQ(beside.at("2.8"), 0.5);
+  EXPECT_NEAR(beside.at("2.6") + beside.at("2.4"), 0.5, 1e-12);
+  EXPECT_TRUE(at_line(mouth.lower(4)).empty()) << "a corner moves as its point";
 }
 
 }  // namespace

@@ -106,6 +106,18 @@ TEST(Fapu, MissingPoints_LeaveTheUnitEmptyAndAreNamed) {
                           AllOf(HasSubstr("MNS"), HasSubstr("9.15 is not marked"))));
 }
 
+TEST(Fapu, WithoutAnOuterCornerOfTheLips_MwIsMeasuredBetweenTheInnerOnes) {
+  FeaturePointSet points = whole_face;
+  std::erase_if(points, [](const FeaturePoint& p) { return p.id == testing::fp("8.4"); });
+  EXPECT_FALSE(compute_fapu(points)[FapuUnit::mw]);
+  const auto corners = {bare("2.4", {2, -2, 8}), bare("2.5", {-1.5F, -2, 8})};
+  points.insert(points.end(), corners.begin(), corners.end());
+  std::sort(points.begin(), points.end(), [](const FeaturePoint& a, const FeaturePoint& b) { return a.id < b.id; });
+  const Fapu fapu = compute_fapu(points);
+  EXPECT_DOUBLE_EQ(fapu[FapuUnit::mw].value() * 1024, outer_per_inner_width * 3.5);
+  EXPECT_TRUE(explain_missing_fapu(fapu, points).empty());
+}
+
 TEST(Fapu, SwappedPoints_LeaveTheUnitEmptyAndSaySo) {
   const FeaturePointSet points = {bare("8.3", {-2, 0, 0}), bare("8.4", {2, 0, 0})};
   const Fapu fapu = compute_fapu(points);

@@ -93,6 +93,25 @@ TEST(SmoothWeights_Rows, AreSharedByPointsAtOneVertex) {
   EXPECT_NEAR(weight_of(table, at(22, 20), "2.1"), weight_of(table, at(22, 20), "2.10"), 0.02);
 }
 
+// Otherwise a mouth that is a line of single vertices would become a zigzag when it opens.
+TEST(SmoothWeights_Rows, AreThoseOfBothLipsAtPointsOnTheLineOfBoth) {
+  const auto table = smooth(testing::make_grid(side, side),
+                            {{"2.4", at(30, 20)},
+                             {"2.5", at(10, 20)},
+                             {"2.2", at(20, 20)},
+                             {"2.3", at(20, 20)},
+                             {"2.6", at(22, 20)},
+                             {"2.7", at(18, 20)},
+                             {"2.8", at(24, 20)},
+                             {"2.9", at(16, 20)}},
+                            20.0);
+  EXPECT_EQ(weight_of(table, at(22, 20), "2.6"), 0.5);
+  EXPECT_EQ(weight_of(table, at(22, 20), "2.3"), 0.25);
+  EXPECT_EQ(weight_of(table, at(22, 20), "2.8"), 0.25);
+  EXPECT_EQ(weight_of(table, at(20, 20), "2.2"), 0.5);
+  EXPECT_EQ(weight_of(table, at(30, 20), "2.4"), 1.0);
+}
+
 // What lies behind a lip follows the lip less the deeper it lies, and the jaw on the lower side.
 TEST(SmoothWeights_Rows, PassToJawAndSkullBehindALip) {
   const auto table = smooth(testing::make_grid(side, side),
