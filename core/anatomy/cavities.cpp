@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/anatomy/lip_edge.h"
 #include "core/anatomy/rim_sides.h"
 #include "core/anatomy/smooth_step.h"
 #include "core/geometry/edge_path_search.h"
@@ -50,6 +51,16 @@ bool mark_rim(const Surface& surface, PartId part, std::span<const SurfacePoint>
   return true;
 }
 
+/// Where the mouth is a hole in the surface, its border is a rim too, if points lie beside it.
+void mark_edges_of_lips(const Surface& surface, std::span<const SurfacePoint> points, std::vector<bool>& on_rim) {
+  const LipEdges lips = find_lip_edges(surface, points);
+  for (const LipEdge* const lip : {&lips.upper, &lips.lower}) {
+    for (const auto& line : lip->between) {
+      for (const SurfaceVertexId v : line) on_rim[v.value()] = true;
+    }
+  }
+}
+
 struct Rim {
   Cavity cavity;  ///< without members yet
   std::vector<bool> on_rim;
@@ -65,10 +76,12 @@ std::vector<Rim> find_rims(const Surface& surface, PartId part, std::span<const 
     rim.cavity.is_mouth = opening.is_mouth;
     rim.cavity.middle = (corners.first->position + corners.last->position) / 2.0;
     rim.on_rim.assign(surface.vertex_count(), false);
-    if (mark_rim(surface, part, points, corners, opening.upper, rim.on_rim) &&
-        mark_rim(surface, part, points, corners, opening.lower, rim.on_rim)) {
-      rims.push_back(std::move(rim));
+    if (!mark_rim(surface, part, points, corners, opening.upper, rim.on_rim) ||
+        !mark_rim(surface, part, points, corners, opening.lower, rim.on_rim)) {
+      continue;
     }
+    if (opening.is_mouth) mark_edges_of_lips(surface, points, rim.on_rim);
+    rims.push_back(std::move(rim));
   }
   return rims;
 }

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/anatomy/cavities.h"
 #include "tests/support/meshes.h"
 #include "tests/support/sample_head_model.h"
 
@@ -141,6 +142,15 @@ class CoarseMouth {
     }
     return shares;
   }
+  /// Whether a vertex is said to lie behind the rim of the mouth.
+  [[nodiscard]] bool is_inside(std::uint32_t vertex,
+                               std::initializer_list<std::pair<std::string_view, std::uint32_t>> marks) const {
+    const auto cavities =
+        find_cavities(surface_, PartId(0), surface_points(surface_, testing::points_at(model_, marks)));
+    return std::any_of(cavities.begin(), cavities.end(), [&](const Cavity& cavity) {
+      return std::binary_search(cavity.members.begin(), cavity.members.end(), surface_.surface_of[vertex]);
+    });
+  }
 
  private:
   bool slit_;
@@ -168,6 +178,18 @@ TEST(OpeningMarginsOfACoarseMouth, FollowTheHoleThoughPointsLieBesideIt) {
   EXPECT_EQ(at_rim(mouth.lower(-1)), (Shares{{"2.3", 0.5}, {"2.9", 0.5}}));
   EXPECT_EQ(at_rim(mouth.upper(1)), (Shares{{"2.2", 0.5}, {"2.6", 0.5}}));
   EXPECT_TRUE(at_rim(CoarseMouth::chin(1)).empty());
+}
+
+// Between the hole and the shortest path through a point below it; the inside of a mouth does not follow the lip fully.
+TEST(OpeningMarginsOfACoarseMouth, TheBorderOfTheHoleIsNoInside) {
+  const CoarseMouth mouth(true);
+  EXPECT_FALSE(mouth.is_inside(mouth.lower(-1), {{"2.1", CoarseMouth::chin(0)},
+                                                 {"2.2", mouth.upper(0)},
+                                                 {"2.3", mouth.lower(0)},
+                                                 {"2.4", mouth.lower(4)},
+                                                 {"2.5", mouth.lower(-4)},
+                                                 {"2.9", CoarseMouth::chin(-3)},
+                                                 {"9.3", CoarseMouth::nose(0)}}));
 }
 
 TEST(OpeningMarginsOfACoarseMouth, OnALineOfBothLipsAreTheMeanOfBoth) {

@@ -106,6 +106,27 @@ TEST_F(Propose, NamesTheWayAndTheVertex) {
   EXPECT_FALSE(find(*proposals, fp("7.1"))->point.vertex);
 }
 
+// On a coarse mesh the most prominent vertex near the chin may be one of the lower lip.
+TEST_F(Propose, PutsTheBossOfTheChinBelowTheLowerLip) {
+  FeaturePointSet known = some(quick_set);
+  const auto at = [](FeaturePointSet& points, const char* name) {
+    return std::find_if(points.begin(), points.end(), [&](const FeaturePoint& p) { return p.id == fp(name); });
+  };
+  const glm::vec3 boss = at(all_, "2.10")->position;
+  const glm::vec3 below = glm::mix(boss, at(all_, "2.1")->position, 0.35F);
+  std::uint32_t lip = 0;
+  for (std::uint32_t v = 0; v < model_.positions.size(); ++v) {
+    if (glm::distance(model_.positions[v], below) < glm::distance(model_.positions[lip], below)) lip = v;
+  }
+  *at(known, "8.2") = {fp("8.2"), VertexId(lip), model_.positions[lip]};
+  const auto proposals = propose(known);
+  ASSERT_TRUE(proposals);
+  const Proposal* const chin = find(*proposals, fp("2.10"));
+  ASSERT_NE(chin, nullptr);
+  EXPECT_LT(chin->point.position.y, model_.positions[lip].y + 0.03F * 0.064F);
+  EXPECT_LT(model_.positions[lip].y, boss.y - 0.05F * 0.064F);
+}
+
 TEST_F(Propose, NothingWhenAllAreKnown) {
   const auto proposals = propose(all_);
   ASSERT_TRUE(proposals);
