@@ -204,7 +204,7 @@ export class Kernel {
         exports.semblante_join_seams(turned, base + rest, base + ownNormals, scratch, base + joined);
         runtime.free(scratch);
         exports.semblante_rest_normals(base + trianglesAt, base + rest, base + ownNormals, base + restNormals);
-        floats(normals, turned * 3).set(floats(ownNormals, turned * 3));
+        runtime.bytes.copyWithin(base + normals, base + ownNormals, base + ownNormals + turned * 12); // the memory may have grown
       }
     } catch (error) {
       runtime.free(base);

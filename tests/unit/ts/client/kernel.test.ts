@@ -262,6 +262,21 @@ describe('Kernel', () => {
     runtime.free(big);
   });
 
+  it('Create_WhileTheMemoryGrows_GivesTheSameFace', async () => {
+    const own = await Runtime.open(readFileSync(viewPath));
+    const face = faceOf(golden);
+    const first = new Kernel(own, face, { withNormals: true });
+    const normals = first.normals.slice();
+    const kernels = [first];
+    let grown = 0;
+    while (grown < 20) {
+      const before = own.bytes.length;
+      kernels.push(new Kernel(own, face, { withNormals: true }));
+      if (own.bytes.length > before) grown += 1;
+    }
+    for (const kernel of kernels) expect(kernel.normals).toEqual(normals);
+  });
+
   it('Dispose_AThousandTimes_GivesTheMemoryBack', () => {
     new Kernel(runtime, faceOf(golden), { withNormals: true }).dispose();
     const before = runtime.bytes.length;
