@@ -3,7 +3,7 @@ import { errorLayout } from './generated/layouts.ts';
 
 /** What every file of libsemblante has. Pointers and handles are numbers. */
 export interface Memory {
-  memory: WebAssembly.Memory;
+  memory: { readonly buffer: ArrayBuffer };
   malloc(bytes: number): number;
   free(at: number): void;
   _initialize(): void;
@@ -57,7 +57,8 @@ export interface Functions extends Memory {
 }
 
 /** What a fetch of the WebAssembly file gives, or its bytes. */
-export type ModuleSource = BufferSource | Response | Promise<BufferSource | Response>;
+export type ModuleSource = Bytes | Response | Promise<Bytes | Response>;
+type Bytes = ArrayBuffer | ArrayBufferView<ArrayBuffer>; // `BufferSource` and `WebAssembly` are names of pages' types alone
 
 /** The error that a refusal of the library becomes: its result, the place and the words. */
 export type Refusal = (result: number, where: string, message: string) => Error;

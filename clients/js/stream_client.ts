@@ -85,6 +85,18 @@ export interface ClockSample {
   mediaTime: number;
 }
 
+/** What a client uses of a WebSocket: browsers' have it, and those of packages for Node. */
+export interface ClientSocket {
+  binaryType: string;
+  readonly bufferedAmount: number;
+  onopen: ((event: never) => unknown) | null;
+  onclose: ((event: never) => unknown) | null;
+  onerror: ((event: never) => unknown) | null;
+  onmessage: ((event: never) => unknown) | null;
+  send(bytes: Uint8Array<ArrayBuffer>): void;
+  close(code?: number): void;
+}
+
 export interface StreamOptions {
   role?: StreamRole;
   /** For a publisher: replace the current publisher. Default false. */
@@ -100,8 +112,8 @@ export interface StreamOptions {
    * WebSocket carries no header.
    */
   token?: string;
-  /** Default: the platform's WebSocket. Node 18 has none: pass the class of a package. */
-  WebSocket?: new (url: string, protocols: string[]) => WebSocket;
+  /** Default: the platform's WebSocket. Node 18 to 20 have none: pass the class of a package, such as `ws`. */
+  WebSocket?: new (url: string, protocols: string[]) => ClientSocket;
   /** ms; default performance.now() */
   now?: () => number;
   /** First and longest pause before a reconnection, ms. Default 250 and 10000; each attempt doubles the pause. */
@@ -183,7 +195,7 @@ export class StreamClient extends Emitter<StreamEvents> {
   private release: (() => void) | null = null;
   private readonly whenMade: ((memory: StreamMemory) => void)[] = [];
   private isWanted = false;
-  private socket: WebSocket | null = null;
+  private socket: ClientSocket | null = null;
   private unpack: UnpackText | null = null;
   private waiting: Uint8Array[] | null = null;
   private timer: ReturnType<typeof setTimeout> | undefined;
@@ -421,7 +433,7 @@ export class StreamClient extends Emitter<StreamEvents> {
   private open(): void {
     const { token } = this.options;
     const names = token === undefined ? [binarySubprotocol] : [binarySubprotocol, `${bearerSubprotocol}${token}`];
-    let socket: WebSocket;
+    let socket: ClientSocket;
     try {
       socket = new this.options.WebSocket(this.url, names);
     } catch (error) {

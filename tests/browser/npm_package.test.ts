@@ -106,6 +106,95 @@ face.addEventListener('mine', (event) => console.log(event.type));
   expect(faults).toBe('');
 });
 
+/** Compiles one file as a stranger's project would, with declarations checked too. Returns what the compiler says. */
+async function compile(name: string, file: string, text: string, options: object, packages: Record<string, string>): Promise<string> {
+  const source = join(project, name);
+  for (const [module, folder] of Object.entries({ ...packages, semblante: unpacked })) {
+    mkdirSync(join(source, 'node_modules', module, '..'), { recursive: true });
+    symlinkSync(folder, join(source, 'node_modules', module));
+  }
+  writeFileSync(join(source, file), text);
+  writeFileSync(join(source, 'package.json'), '{"type":"module"}');
+  const compilerOptions = { module: 'nodenext', target: 'es2022', strict: true, exactOptionalPropertyTypes: true, noEmit: true, types: [], ...options };
+  writeFileSync(join(source, 'tsconfig.json'), JSON.stringify({ compilerOptions, files: [file] }));
+  return run(process.execPath, [join(root, 'web/node_modules/typescript/lib/tsc.js'), '-p', source]).then(
+    () => '',
+    (error: { stdout: string }) => error.stdout,
+  );
+}
+
+/** Node's own types have neither `WebAssembly` nor `BufferSource`. */
+test('Package_TypeScriptForNodeAlone_NeedsNoTypesOfPages', async () => {
+  const types = join(root, 'web/node_modules/@types/node');
+  const undici = join(root, 'web/node_modules/undici-types');
+  const text = `import { Kernel, loadFace, loadRuntime, neutralFrame, StreamClient } from 'semblante';
+import { loadDraco } from 'semblante/draco';
+import { Bridges, loadLibrary } from 'semblante/motion';
+/** As packages for Node declare it: more ways to make it, other events. */
+declare class Socket {
+  constructor(address: string | URL, protocols?: string | string[], options?: { origin?: string });
+  constructor(address: null);
+  binaryType: 'nodebuffer' | 'arraybuffer' | 'fragments';
+  readonly bufferedAmount: number;
+  onopen: ((event: { target: Socket }) => void) | null;
+  onclose: ((event: { code: number }) => void) | null;
+  onerror: ((event: { message: string }) => void) | null;
+  onmessage: ((event: { data: string | Uint8Array | ArrayBuffer | Uint8Array[] }) => void) | null;
+  send(data: string | Uint8Array | ArrayBuffer, done?: (error?: Error) => void): void;
+  close(code?: number, reason?: string | Uint8Array): void;
+}
+export const client = new StreamClient('ws://127.0.0.1:8080', { WebSocket: Socket });
+export const all = [Kernel, loadFace, loadRuntime, neutralFrame, StreamClient, loadDraco, Bridges, loadLibrary];
+`;
+  expect(await compile('types-node', 'use.ts', text, { lib: ['es2022'], types: ['node'] }, { '@types/node': types, 'undici-types': undici })).toBe('');
+});
+
+/** One program of all blocks in their order: a later one sees the names of those before it, and may have its own. */
+test('Package_ReadmeInTypeScript_Compiles', async () => {
+  const readme = readFileSync(join(unpacked, 'README.md'), 'utf8');
+  const blocks = [...readme.matchAll(/^```ts\n(.*?)^```/gms)].map(([, block]) => block!).filter((block) => !block.includes("from 'react'"));
+  expect(blocks.length).toBeGreaterThan(6);
+  const lines = blocks.map((block) => block.split('\n'));
+  const imports = new Set(lines.flat().filter((line) => line.startsWith('import ')));
+  const bodies = lines.map((block) => block.filter((line) => !line.startsWith('import ')).join('\n'));
+  const given = `import type { Scene } from 'three';
+declare function showPositions(positions: Float32Array, triangles: Uint32Array): void;
+declare const button: HTMLButtonElement, line: HTMLElement, picture: HTMLElement, scene: Scene;
+`;
+  const merged = new Map<string, Set<string>>();
+  for (const line of imports) {
+    const [, list, from] = /^import \{ (.*) \} from '(.*)';$/.exec(line)!;
+    const known = merged.get(from!) ?? new Set();
+    for (const name of list!.split(', ')) known.add(name);
+    merged.set(from!, known);
+  }
+  const text = `${[...merged].map(([from, list]) => `import { ${[...list].join(', ')} } from '${from}';`).join('\n')}
+${given}${bodies.join('\n{\n')}${'\n}'.repeat(bodies.length - 1)}\n`;
+  const packages = { '@types/three': join(root, 'web/node_modules/@types/three') };
+  expect(await compile('types-readme', 'readme.ts', text, { lib: ['es2022', 'dom'], skipLibCheck: true }, packages)).toBe('');
+});
+
+/** React's own types are not here: the block of the README with as much of them as it uses. */
+test('Package_ReadmeForReact_GivesTheElementItsAttributes', async () => {
+  const block = /^```ts\n(import type \{ DetailedHTMLProps.*?)^```/ms.exec(readFileSync(join(unpacked, 'README.md'), 'utf8'))![1]!;
+  const react = join(project, 'react');
+  mkdirSync(react, { recursive: true });
+  writeFileSync(join(react, 'package.json'), '{"name":"react","types":"index.d.ts","exports":{".":{"types":"./index.d.ts"},"./jsx-runtime":{"types":"./jsx-runtime.d.ts"}}}');
+  writeFileSync(
+    join(react, 'index.d.ts'),
+    `export interface HTMLAttributes<T> { className?: string | undefined; onClick?: ((target: T) => void) | undefined }
+export type DetailedHTMLProps<E extends HTMLAttributes<T>, T> = { ref?: { current: T | null } | undefined } & E;
+export namespace JSX { interface IntrinsicElements {} interface Element {} }
+`,
+  );
+  writeFileSync(join(react, 'jsx-runtime.d.ts'), "export { JSX } from './index.js';\nexport declare function jsx(...all: unknown[]): unknown;\n");
+  const use = (attributes: string): string => `${block}import 'semblante/element';\nexport const face = <semblante-face ${attributes} />;\n`;
+  const options = { lib: ['es2022', 'dom'], jsx: 'react-jsx', skipLibCheck: true };
+  const right = 'className="a" src="/" stream="demo" alt="Ana" fit="face" sound={false} voice="" captions orbit="none" model={undefined}';
+  expect(await compile('types-react', 'use.tsx', use(right), options, { react })).toBe('');
+  expect(await compile('types-react-wrong', 'use.tsx', use('fit="nose"'), options, { react })).toContain('"nose"');
+});
+
 test('Package_ClientWithLibrary_IsAtMost60kBGzipped', () => {
   const library = gzipBytes(join(unpacked, 'dist/semblante_view.wasm'));
   expect(gzipped('index.js') + library).toBeLessThanOrEqual(60_000);
@@ -178,6 +267,31 @@ test('Package_BarePage_ShowsAMovingFace', async () => {
   expect(page).toContain('http://127.0.0.1:8080');
   writeFileSync(example, page.replace('http://127.0.0.1:8080', server.url));
   await moves('/node_modules/semblante/example.html');
+});
+
+test('Package_ElementOfAFramework_TakesWhatWasSetBeforeItIsDefined_AndWhatIsTakenAway', async () => {
+  const early = "{ src: '', stream: 'demo', alt: 'Ana', model: 'sample', token: null, captions: true }";
+  writeFileSync(join(project, 'early.js'), `Object.assign(document.querySelector('semblante-face'), ${early});`);
+  writeFileSync(
+    join(project, 'early.html'),
+    `<!doctype html><semblante-face></semblante-face><script src="early.js"></script>
+<script type="module" src="node_modules/semblante/dist/element.js"></script>`,
+  );
+  await moves('/early.html', server.url, async (page) => {
+    const attributes = (): Promise<Record<string, string>> =>
+      page.evaluate(() => {
+        const face = document.querySelector('semblante-face')!;
+        return Object.fromEntries(face.getAttributeNames().map((name) => [name, face.getAttribute(name)!]));
+      });
+    expect(await attributes()).toEqual({ src: '', stream: 'demo', alt: 'Ana', model: 'sample', captions: '' });
+    expect(await page.getByRole('img', { name: 'Ana' }).count()).toBe(1);
+    await page.evaluate(() => {
+      const gone = { alt: null, model: undefined, poster: null, fit: undefined, quality: null, theme: undefined, captions: undefined };
+      Object.assign(document.querySelector('semblante-face')!, gone);
+    });
+    expect(await attributes()).toEqual({ src: '', stream: 'demo' });
+    await page.waitForFunction(() => (document.querySelector('semblante-face') as { state?: string } | null)?.state === 'playing');
+  });
 });
 
 test('Package_Greeting_IsSaidInBothLanguages', async () => {

@@ -13,6 +13,25 @@ export type Connection = 'none' | 'good' | 'fair' | 'poor' | 'lost';
 
 const fits: readonly string[] = ['head', 'face', 'model'] satisfies Fit[];
 const qualities: readonly string[] = ['auto', 'low', 'medium', 'high'] satisfies QualityName[];
+/** What the markup of a page can say: for the types of frameworks (README.md). Undefined: not there. */
+export interface FaceAttributes {
+  src?: string | undefined;
+  stream?: string | undefined;
+  model?: string | null | undefined;
+  fit?: Fit | undefined;
+  quality?: QualityName | undefined;
+  theme?: 'auto' | 'light' | 'dark' | undefined;
+  poster?: string | undefined;
+  alt?: string | undefined;
+  orbit?: 'free' | 'none' | undefined;
+  /** The empty text: as an attribute without a value. */
+  sound?: boolean | '' | undefined;
+  voice?: boolean | '' | undefined;
+  captions?: boolean | '' | undefined;
+}
+
+/** What a page can set as properties. */
+const properties = ['src', 'stream', 'model', 'poster', 'alt', 'fit', 'quality', 'theme', 'sound', 'voice', 'captions', 'token'] as const;
 /** Loading begins this far before the element is scrolled into view. */
 const ahead = '200px';
 /** Radians for a stroke across the whole element, and for an arrow key. */
@@ -105,50 +124,72 @@ export class SemblanteFace extends Base {
 
   // ---- attributes as properties -----------------------------------------------------------------------------
 
+  /** Frameworks set null or undefined for what is not there. */
+  private put(name: string, value: string | null | undefined): void {
+    if (value === null || value === undefined) this.removeAttribute(name);
+    else this.setAttribute(name, value);
+  }
+
+  /** What was set before the element was defined lies on the object itself and hides the properties of the class. */
+  private takeEarly(): void {
+    for (const name of properties) {
+      if (!Object.hasOwn(this, name)) continue;
+      const value: unknown = Reflect.get(this, name);
+      Reflect.deleteProperty(this, name);
+      Reflect.set(this, name, value);
+    }
+  }
+
   get src(): string {
     return this.getAttribute('src') ?? '';
   }
   set src(value: string) {
-    this.setAttribute('src', value);
+    this.put('src', value);
   }
   get stream(): string {
     return this.getAttribute('stream') ?? '';
   }
   set stream(value: string) {
-    this.setAttribute('stream', value);
+    this.put('stream', value);
   }
   get model(): string | null {
     return this.getAttribute('model');
   }
   set model(value: string | null) {
-    if (value === null) this.removeAttribute('model');
-    else this.setAttribute('model', value);
+    this.put('model', value);
   }
   get poster(): string {
     return this.getAttribute('poster') ?? '';
   }
   set poster(value: string) {
-    this.setAttribute('poster', value);
+    this.put('poster', value);
+  }
+  /** Empty: the attribute is missing, and the name is that of the stream. */
+  get alt(): string {
+    return this.getAttribute('alt') ?? '';
+  }
+  set alt(value: string) {
+    this.put('alt', value);
   }
   get fit(): Fit {
     const value = this.getAttribute('fit') ?? '';
     return fits.includes(value) ? (value as Fit) : 'head';
   }
   set fit(value: Fit) {
-    this.setAttribute('fit', value);
+    this.put('fit', value);
   }
   get quality(): QualityName {
     const value = this.getAttribute('quality') ?? '';
     return qualities.includes(value) ? (value as QualityName) : 'auto';
   }
   set quality(value: QualityName) {
-    this.setAttribute('quality', value);
+    this.put('quality', value);
   }
   get theme(): string {
     return this.getAttribute('theme') ?? 'auto';
   }
   set theme(value: string) {
-    this.setAttribute('theme', value);
+    this.put('theme', value);
   }
 
   /** Whether the stream's sound is asked for. A button, or `setSound`, lets it be heard: browsers demand a tap. */
@@ -277,6 +318,7 @@ export class SemblanteFace extends Base {
   // ---- life -------------------------------------------------------------------------------------------------
 
   connectedCallback(): void {
+    this.takeEarly();
     this.name();
     this.setPoster();
     this.seen = new IntersectionObserver((entries) => this.look(entries.at(-1)!.isIntersecting), { rootMargin: ahead });
