@@ -20,6 +20,9 @@ struct LidEdge {
   std::array<bool, 2> ends_at_corner{};                   ///< or at the vertex of its part that is nearest to it
 };
 
+/// The height of an eye's opening as a share of its width below which its lids are closed. Open eyes have 0.2 and more.
+inline constexpr double closed_height = 0.04;
+
 /// Both edges of one eye. Points are those of the standard (left: 3.1, 3.3, corners 3.11 and 3.7).
 struct EyeEdges {
   LidEdge upper, lower;

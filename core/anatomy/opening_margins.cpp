@@ -18,9 +18,8 @@ namespace {
 /// Maximum number of places between the middle of a lid and a corner, or between two points of a lip.
 constexpr std::size_t places_of_lid = 9;
 constexpr std::size_t places_of_lip = 2;
-/// The height of an eye's opening as a share of its width. Below the first value its lids are closed, and the heights
-/// along their edges say nothing; from the second on they say how the lids close. Open eyes have 0.2 and more.
-constexpr double closed_height = 0.04;
+/// The height of an eye's opening as a share of its width from which on the heights along the edges say how its lids
+/// close. Those of closed lids (`closed_height`) say nothing.
 constexpr double open_height = 0.12;
 /// From the front, radians: so far from the side closed lids show no gap.
 constexpr double side_view = 1.05;

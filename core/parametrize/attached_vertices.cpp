@@ -91,6 +91,7 @@ void smooth(const Surface& surface, std::span<const SurfaceVertexId> vertices, c
 struct EdgesOfEye {
   SkinVertices upper, lower;
   double width;
+  bool is_closed;
 };
 
 std::vector<EdgesOfEye> edges_of_eyes(const Surface& surface, std::span<const Part> parts,
@@ -107,19 +108,22 @@ std::vector<EdgesOfEye> edges_of_eyes(const Surface& surface, std::span<const Pa
   for (std::size_t eye = 0; eye < 2; ++eye) {
     const std::optional<EyeEdges> edges = find_eye_edges(surface, points, eye);
     if (!edges || !is_skin(edges->upper) || !is_skin(edges->lower)) continue;
+    const double width = glm::distance(edges->upper.corners[0].position, edges->upper.corners[1].position);
+    const double opening = edges->upper.middle.position.y - edges->lower.middle.position.y;
     eyes.push_back({SkinVertices(surface, vertices_of(edges->upper)), SkinVertices(surface, vertices_of(edges->lower)),
-                    glm::distance(edges->upper.corners[0].position, edges->upper.corners[1].position)});
+                    width, opening < closed_height * width});
   }
   return eyes;
 }
 
-/// The edge of the lid whose lash a part is.
-struct EdgeOfLash {
-  const SkinVertices* edge = nullptr;  ///< null if the part is no lash
-  double eye_width = 0.0;
+/// A part that begins at the lids of an eye and ends near them.
+struct PartAtLids {
+  PartId part;
+  const EdgesOfEye* eye;
+  double at_upper;  ///< of its vertices, by which share they are nearer to the edge of the upper lid
 };
 
-EdgeOfLash edge_of_lash(const Surface& surface, PartId part, std::span<const EdgesOfEye> eyes) {
+std::optional<PartAtLids> at_lids(const Surface& surface, PartId part, std::span<const EdgesOfEye> eyes) {
   const auto members = surface.members_of(part);
   for (const EdgesOfEye& eye : eyes) {
     double nearest = infinite;
@@ -133,11 +137,45 @@ EdgeOfLash edge_of_lash(const Surface& surface, PartId part, std::span<const Edg
       farthest = std::max(farthest, std::min(to_upper, to_lower));
     }
     if (nearest > root_from_edge * eye.width || farthest > longest_lash * eye.width) continue;
-    const double upper = static_cast<double>(at_upper) / static_cast<double>(members.size());
-    if (upper >= of_one_lid) return {&eye.upper, eye.width};
-    if (upper <= 1.0 - of_one_lid) return {&eye.lower, eye.width};
+    return PartAtLids{part, &eye, static_cast<double>(at_upper) / static_cast<double>(members.size())};
   }
-  return {};
+  return std::nullopt;
+}
+
+/// The edge of the lid whose lash a part is.
+struct EdgeOfLash {
+  const SkinVertices* edge = nullptr;  ///< null if the part is no lash
+  double eye_width = 0.0;
+};
+
+/// By part. Where an eye is closed, its edges lie on each other and the lashes of both lids point the same way, over
+/// the lower one: the upper lid's are those that are nearer to its edge than the others are.
+std::vector<EdgeOfLash> edges_of_lashes(const Surface& surface, std::span<const Part> parts,
+                                        std::span<const EdgesOfEye> eyes) {
+  std::vector<EdgeOfLash> result(parts.size());
+  std::vector<PartAtLids> found;
+  for (std::uint32_t p = 0; p < parts.size(); ++p) {
+    if (parts[p].role != PartRole::attached) continue;
+    if (const auto part = at_lids(surface, PartId(p), eyes)) found.push_back(*part);
+  }
+  for (const PartAtLids& lash : found) {
+    const EdgesOfEye& eye = *lash.eye;
+    double least = 0.0;
+    double greatest = 1.0;
+    if (eye.is_closed) {
+      least = greatest = lash.at_upper;
+      for (const PartAtLids& other : found) {
+        if (other.eye != lash.eye) continue;
+        least = std::min(least, other.at_upper);
+        greatest = std::max(greatest, other.at_upper);
+      }
+    }
+    // A single row of lashes is the upper lid's.
+    const double upper = greatest > least ? (lash.at_upper - least) / (greatest - least) : 1.0;
+    if (upper >= of_one_lid) result[lash.part.value()] = {&eye.upper, eye.width};
+    if (upper <= 1.0 - of_one_lid) result[lash.part.value()] = {&eye.lower, eye.width};
+  }
+  return result;
 }
 
 }  // namespace
@@ -153,6 +191,7 @@ std::vector<std::vector<FollowedVertex>> followed_by_attached(const Surface& sur
   const std::vector<EdgesOfEye> eyes = edges_of_eyes(surface, parts, points);
 
   std::vector<double> cost(surface.vertex_count(), infinite);
+  const std::vector<EdgeOfLash> edges = edges_of_lashes(surface, parts, eyes);
   std::vector<bool> is_root(surface.vertex_count(), false);
   std::vector<PartId> lashes;
   using Entry = std::pair<double, SurfaceVertexId>;
@@ -165,7 +204,7 @@ std::vector<std::vector<FollowedVertex>> followed_by_attached(const Surface& sur
   };
   for (std::uint32_t p = 0; p < parts.size(); ++p) {
     if (!is_attached(parts[p])) continue;
-    const auto [edge, eye_width] = edge_of_lash(surface, PartId(p), eyes);
+    const auto [edge, eye_width] = edges[p];
     if (edge != nullptr) lashes.push_back(PartId(p));
     for (const SurfaceVertexId v : surface.members_of(PartId(p))) {
       const SkinVertices::Hit hit = (edge != nullptr ? *edge : skin).nearest(surface.positions[v.value()]);

@@ -22,7 +22,8 @@ struct FollowedVertex {
 /// follows the skin vertex with the shortest path to it, where lengths through the air count several times those along
 /// the part. The paths of lashes end at the edge of their lid: on a face with heavy lids or a low brow, their tips lie
 /// on the skin above it. Beyond its root a lash follows a mean along the edge, or it would crumple where the edge
-/// moves unequally, as at the corners of the eye.
+/// moves unequally, as at the corners of the eye. On an eye that is closed, the lashes of both lids are told apart by
+/// which of them is nearer to the upper edge.
 std::vector<std::vector<FollowedVertex>> followed_by_attached(const Surface& surface, std::span<const Part> parts,
                                                               std::span<const SurfacePoint> points);
 
