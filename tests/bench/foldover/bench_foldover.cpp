@@ -1,7 +1,10 @@
-// Skin that turns inside out, lips and lids that pass through each other or stay open: tables on standard output.
+// bench_foldover [--full] [MODEL POINTS]...
+// Skin that turns inside out, lips and lids that pass through each other or stay open: tables on standard output, of
+// the known heads or of those given.
 
 #include <cstdio>
 #include <exception>
+#include <span>
 
 #include "core/expressions/library.h"
 #include "core/parametrize/weight_method.h"
@@ -46,6 +49,27 @@ void print_folds(const PosedFace& face, bool in_full) {
       combined.degenerate);
 }
 
+/// Skin about the eyes that FAPs turn inside out.
+void print_eye_folds(const PosedFace& face) {
+  struct Pose {
+    const char* name;
+    semblante_frame frame;
+  };
+  const std::vector<Pose> poses = {
+      {"brows up", frame_of({{31, 400}, {32, 400}, {33, 400}, {34, 400}, {35, 400}, {36, 400}})},
+      {"brows down", frame_of({{31, -200}, {32, -200}, {33, -200}, {34, -200}, {35, -200}, {36, -200}})},
+      {"cheeks up", frame_of({{41, 300}, {42, 300}})},
+      {"lids open", frame_of({{19, -512}, {20, -512}, {21, -256}, {22, -256}})},
+      {"lids shut", frame_of({{19, 1024}, {20, 1024}})},
+  };
+  const Model& model = face.head().model;
+  std::printf("  inverted:");
+  for (const Pose& pose : poses)
+    std::printf(" %s %zu", pose.name,
+                count_fold_over(model.triangles, model.positions, face.pose(pose.frame)).inverted);
+  std::printf("\n");
+}
+
 void print_closure(const PosedFace& face) {
   struct Shut {
     const char* name;
@@ -59,6 +83,7 @@ void print_closure(const PosedFace& face) {
       {"left lids shut", OpeningKind::left_eye, frame_of({{19, 1024.0F}, {20, 1024.0F}})},
       {"shut, looks up", OpeningKind::left_eye, frame_of({{19, 1024.0F}, {25, -34907.0F}})},
       {"shut, looks down", OpeningKind::left_eye, frame_of({{19, 1024.0F}, {25, 34907.0F}})},
+      {"lower lid alone", OpeningKind::left_eye, frame_of({{21, 1024.0F}})},
       {"right lids shut", OpeningKind::right_eye, frame_of({{19, 1024.0F}, {20, 1024.0F}})},
   };
   for (const Shut& shut : shuts) {
@@ -73,14 +98,15 @@ void print_closure(const PosedFace& face) {
   }
 }
 
-void run(bool in_full) {
-  for (const Head& head : known_heads()) {
+void run(const std::vector<Head>& heads, bool in_full) {
+  for (const Head& head : heads) {
     for (const WeightMethod method : {WeightMethod::paper, WeightMethod::smooth, WeightMethod::fitted}) {
       if (method == WeightMethod::fitted && head.model.examples.empty()) continue;
       const PosedFace face(head, method);
       std::printf("%s, %s\n", head.name.c_str(),
                   std::string(weight_method_names[static_cast<std::size_t>(method)]).c_str());
       print_folds(face, in_full);
+      print_eye_folds(face);
       print_closure(face);
       std::printf("  upper lip moves with the lower lip by at most %.1f %%\n", 100.0 * leak_to_upper_lip(face));
       std::fflush(stdout);
@@ -93,7 +119,13 @@ void run(bool in_full) {
 
 int main(int argc, char** argv) {
   try {
-    semblante::bench::run(argc > 1 && std::string_view(argv[1]) == "--full");
+    const std::span<char*> words(argv + 1, argv + argc);
+    const bool in_full = !words.empty() && std::string_view(words[0]) == "--full";
+    std::vector<semblante::bench::Head> heads;
+    for (std::size_t i = in_full ? 1 : 0; i + 1 < words.size(); i += 2)
+      heads.push_back(semblante::bench::read_head(words[i], words[i + 1]));
+    if (heads.empty()) heads = semblante::bench::known_heads();
+    semblante::bench::run(heads, in_full);
   } catch (const std::exception& problem) {
     std::fprintf(stderr, "bench_foldover: %s\n", problem.what());
     return 1;

@@ -36,14 +36,18 @@ Head sample_head() {
   return head;
 }
 
+Head read_head(const std::filesystem::path& model, const std::filesystem::path& points) {
+  return make_head(model.stem().string(), oracle::import_head(model), oracle::read_trusted_points(points));
+}
+
 std::vector<Head> known_heads() {
   std::vector<Head> heads;
   heads.push_back(sample_head());
   const auto faces = oracle::faces_folder();
   if (!faces) return heads;
   const auto add = [&](const char* name, const char* model, const char* points) {
-    heads.push_back(make_head(name, oracle::import_head(*faces / name / model),
-                              oracle::read_trusted_points(*faces / name / points)));
+    heads.push_back(read_head(*faces / name / model, *faces / name / points));
+    heads.back().name = name;
   };
   add("ict-facekit", "neutral.obj", "ict-facekit.fps.json");
   add("makehuman", "head.glb", "makehuman.fps.json");
