@@ -138,8 +138,9 @@ TEST(RecognizerPocketsphinx, HearsEnglishOfPeople) {
   // Each word begins with its first sound.
   for (const auto& [word, symbol] : {std::pair{0, "s"}, std::pair{1, "ʌ"}, std::pair{2, "k"}}) {
     const double time = speech->utterance.words[static_cast<std::size_t>(word)].time;
-    EXPECT_TRUE(std::any_of(speech->utterance.phonemes.begin(), speech->utterance.phonemes.end(),
-                            [&](const auto& phoneme) { return phoneme.time == time && phoneme.symbol == symbol; }))
+    EXPECT_TRUE(std::any_of(
+        speech->utterance.phonemes.begin(), speech->utterance.phonemes.end(),
+        [&, symbol = symbol](const auto& phoneme) { return phoneme.time == time && phoneme.symbol == symbol; }))
         << word;
   }
   EXPECT_EQ(heard_by(pocketsphinx, file)->performance.cues.size(), speech->performance.cues.size())

@@ -160,10 +160,13 @@ TEST(SpeechWithoutWords, OfASmileyAlone_IsAFaceThatShowsIt) {
     EXPECT_GT(speech->utterance.duration, 2000.0);
     EXPECT_TRUE(std::all_of(speech->utterance.samples.begin(), speech->utterance.samples.end(),
                             [](std::int16_t sample) { return sample == 0; }));
-    EXPECT_TRUE(std::any_of(speech->performance.cues.begin(), speech->performance.cues.end(), [&](const Cue& cue) {
-      const auto* const target = std::get_if<ExpressionTarget>(&cue.target);
-      return target != nullptr && target->expression == expression && cue.duration.value_or(0.0) > 1000.0;
-    })) << text;
+    EXPECT_TRUE(std::any_of(speech->performance.cues.begin(), speech->performance.cues.end(),
+                            [&, expression = expression](const Cue& cue) {
+                              const auto* const target = std::get_if<ExpressionTarget>(&cue.target);
+                              return target != nullptr && target->expression == expression &&
+                                     cue.duration.value_or(0.0) > 1000.0;
+                            }))
+        << text;
     auto parts = SpeechParts::read({}, request);
     ASSERT_TRUE(parts);
     EXPECT_TRUE(parts->next());
