@@ -17,10 +17,14 @@ namespace {
 
 /// Maximum number of places between the middle of a lid and a corner, or between two points of a lip.
 constexpr std::size_t places_of_lid = 9;
+constexpr std::size_t places_of_fold = 5;
 constexpr std::size_t places_of_lip = 2;
 /// The height of an eye's opening as a share of its width from which on the heights along the edges say how its lids
 /// close. Those of closed lids (`closed_height`) say nothing.
 constexpr double open_height = 0.12;
+/// A brow this near to the fold of its lid, in widths of the eye, leaves a notch in the fold when it rises. Farther
+/// skin between them fades better without places on the fold.
+constexpr double near_brow = 0.6;
 /// From the front, radians: so far from the side closed lids show no gap.
 constexpr double side_view = 1.05;
 
@@ -95,6 +99,18 @@ double arc_share(const LidEdge& edge, const glm::dvec3& p) {
   return 1.0 - to_corner * to_corner;
 }
 
+/// A place on a lid that follows its middle point by `middle`, and the corners by the rest.
+MarginSite site_between_corners(const LidEdge& edge, SurfaceVertexId vertex, const glm::dvec3& p, double middle) {
+  const double to_outer = place_between_corners(edge, p);
+  MarginSite site{vertex, {}};
+  for (const auto& [id, share] :
+       {std::pair(edge.middle.id, middle), std::pair(edge.corners[0].id, (1.0 - middle) * (1.0 - to_outer)),
+        std::pair(edge.corners[1].id, (1.0 - middle) * to_outer)}) {
+    if (share > 0.0) site.shares.emplace_back(id, share);
+  }
+  return site;
+}
+
 void add_lid_sites(const Surface& surface, const LidEdge& edge, const LidEdge& other, bool is_upper,
                    std::vector<MarginSite>& sites) {
   const SurfacePoint& a = edge.corners[0];
@@ -113,13 +129,48 @@ void add_lid_sites(const Surface& surface, const LidEdge& edge, const LidEdge& o
       const double by_height = height > 0.0 ? std::clamp(std::abs(p.y - across) / height, 0.0, 1.0) : 0.0;
       const double arc = is_open < 1.0 ? arc_share(edge, p) : 0.0;
       const double middle = is_open * by_height + (1.0 - is_open) * arc;
-      const double to_b = place_between_corners(edge, p);
-      MarginSite site{vertex, {}};
-      for (const auto& [id, share] : {std::pair(edge.middle.id, middle), std::pair(a.id, (1.0 - middle) * (1.0 - to_b)),
-                                      std::pair(b.id, (1.0 - middle) * to_b)}) {
-        if (share > 0.0) site.shares.emplace_back(id, share);
-      }
-      sites.push_back(std::move(site));
+      sites.push_back(site_between_corners(edge, vertex, p, middle));
+    }
+  }
+}
+
+bool is_on(const LidEdge& edge, SurfaceVertexId vertex) {
+  return std::any_of(edge.to_corner.begin(), edge.to_corner.end(),
+                     [vertex](const auto& path) { return std::find(path.begin(), path.end(), vertex) != path.end(); });
+}
+
+/// The skin of a lid and around it.
+std::vector<SurfaceVertexId> skin_about(const Surface& surface, const LidEdge& lid, double reach) {
+  std::vector<SurfaceVertexId> skin;
+  for (const SurfaceVertexId v : surface.members_of(surface.part_of[lid.middle.vertex.value()])) {
+    if (glm::distance(surface.positions[v.value()], lid.middle.position) < reach) skin.push_back(v);
+  }
+  return skin;
+}
+
+/// The fold of an upper lid: as far from the edge as its point in the middle, and ever nearer towards the corners,
+/// where it ends in the edge.
+void add_fold_sites(const Surface& surface, const EyeEdges& eye, const LidEdge& lid, const SurfacePoint& fold,
+                    std::vector<MarginSite>& sites) {
+  if (surface.part_of[fold.vertex.value()] != surface.part_of[lid.middle.vertex.value()]) return;
+  const glm::dvec3 from_edge = fold.position - lid.middle.position;
+  const double reach = glm::length(from_edge) + glm::distance(lid.corners[0].position, lid.corners[1].position);
+  const std::vector<SurfaceVertexId> skin = skin_about(surface, lid, reach);
+  LidEdge line = lid;
+  line.middle = fold;
+  for (const auto& path : lid.to_corner) {
+    for (const SurfaceVertexId beside : places_on(surface, path, places_of_fold)) {
+      const glm::dvec3& edge = surface.positions[beside.value()];
+      const double share = arc_share(lid, edge);
+      if (share < 0.5) continue;  // near a corner the fold runs into the edge, which must meet the other one
+      const auto off = [&, place = edge + share * from_edge](SurfaceVertexId v) {
+        return glm::distance(surface.positions[v.value()], place);
+      };
+      const SurfaceVertexId vertex = *std::min_element(
+          skin.begin(), skin.end(), [&off](SurfaceVertexId a, SurfaceVertexId b) { return off(a) < off(b); });
+      if (is_on(eye.upper, vertex) || is_on(eye.lower, vertex)) continue;
+      sites.push_back(site_between_corners(line, vertex, edge, share));
+      sites.back().is_edge = false;
     }
   }
 }
@@ -131,6 +182,16 @@ void add_lids(const Surface& surface, std::span<const SurfacePoint> points, std:
     if (!eye) continue;
     add_lid_sites(surface, eye->upper, eye->lower, true, sites);
     add_lid_sites(surface, eye->lower, eye->upper, false, sites);
+  }
+  for (std::size_t k = 0; k < eyes.size(); ++k) {
+    if (!eyes[k]) continue;
+    const SurfacePoint* const fold = point_named(points, k == 0 ? "3.13" : "3.14");
+    const SurfacePoint* const brow = point_named(points, k == 0 ? "4.3" : "4.4");
+    if (fold == nullptr || brow == nullptr) continue;
+    const LidEdge& upper = eyes[k]->upper;
+    const double width = glm::distance(upper.corners[0].position, upper.corners[1].position);
+    if (glm::distance(fold->position, brow->position) < near_brow * width)
+      add_fold_sites(surface, *eyes[k], upper, *fold, sites);
   }
 }
 

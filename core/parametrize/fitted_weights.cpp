@@ -213,7 +213,9 @@ std::vector<double> freedom_of_members(const Surface& surface, const PointDistan
                                        std::span<const MarginSite> margins, double unit) {
   std::vector<double> freedom(distances.members.size(), 1.0);
   std::vector<glm::dvec3> edges;
-  for (const MarginSite& margin : margins) edges.push_back(surface.positions[margin.vertex.value()]);
+  for (const MarginSite& margin : margins) {
+    if (margin.is_edge) edges.push_back(surface.positions[margin.vertex.value()]);
+  }
   if (edges.empty()) return freedom;
   const NearestPoint nearest(edges);
   for (std::size_t m = 0; m < freedom.size(); ++m) {

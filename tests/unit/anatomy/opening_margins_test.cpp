@@ -212,5 +212,58 @@ TEST(OpeningMarginsOfACoarseMouth, OnALineOfBothLipsAreTheMeanOfBoth) {
   EXPECT_TRUE(at_line(mouth.lower(4)).empty()) << "a corner moves as its point";
 }
 
+/// A plate with a slit of four columns as the eye, whose fold is one row above it.
+class Fold : public ::testing::Test {
+ protected:
+  testing::ClosedMouth plate_ = testing::make_closed_mouth();
+  std::uint32_t brow_ = plate_.at(0, 2);
+
+  /// The places on the fold, with 3.13 at a vertex of the plate.
+  std::vector<std::pair<glm::dvec3, double>> sites(std::uint32_t at) {
+    const Surface surface = build_surface(plate_.model);
+    const auto points = surface_points(surface, testing::points_at(plate_.model, {{"3.11", plate_.at(-2, 0)},
+                                                                                  {"3.7", plate_.at(2, 0)},
+                                                                                  {"3.1", plate_.at(0, 0, true)},
+                                                                                  {"3.3", plate_.at(0, 0, false)},
+                                                                                  {"3.13", at},
+                                                                                  {"4.3", brow_}}));
+    std::vector<std::pair<glm::dvec3, double>> result;
+    for (const MarginSite& site : margin_sites(surface, points)) {
+      if (site.is_edge) continue;
+      double share = 0.0;
+      double sum = 0.0;
+      for (const auto& [id, s] : site.shares) {
+        sum += s;
+        share += id == fp("3.13") ? s : 0.0;
+      }
+      EXPECT_DOUBLE_EQ(sum, 1.0);
+      result.emplace_back(surface.positions[site.vertex.value()], share);
+    }
+    return result;
+  }
+};
+
+// Held at its point alone, it would get a notch there when the brow rises.
+TEST_F(Fold, IsAnArcFromCornerToCorner) {
+  const auto found = sites(plate_.at(0, 1));
+  ASSERT_EQ(found.size(), 2U);
+  for (const auto& [place, share] : found) {
+    EXPECT_EQ(std::abs(place.x), 1.0);
+    EXPECT_EQ(place.y, 1.0);
+    EXPECT_DOUBLE_EQ(share, 0.75);
+  }
+}
+
+TEST_F(Fold, FarBelowTheBrow_HasNoPlaces) {
+  plate_.model.positions[brow_].z = 3.0F;
+  EXPECT_TRUE(sites(plate_.at(0, 1)).empty());
+}
+
+TEST_F(Fold, NearerToTheEdgeThanTheMeshIsFine_LeavesTheEdgeAsItIs) {
+  const std::uint32_t middle = plate_.at(0, 1);
+  plate_.model.positions[middle].y = 0.1F;
+  EXPECT_TRUE(sites(middle).empty());
+}
+
 }  // namespace
 }  // namespace semblante
