@@ -6,6 +6,7 @@ import { expressions, faps, featurePointNames, visemes } from '@protocol/generat
 import { expect, test } from 'vitest';
 import { capital, fapTitle } from '../src/ui/shared/names.ts';
 import { portuguese } from '../src/words/portuguese.ts';
+import { portugueseFindings, portugueseMeasure } from '../src/words/portuguese_findings.ts';
 import { portugueseNames, portugueseVisemeWords } from '../src/words/portuguese_names.ts';
 import { portugueseProblems } from '../src/words/portuguese_problems.ts';
 import { languageOf, t } from '../src/words/words.ts';
@@ -122,4 +123,33 @@ test('Words_LanguagesOfABrowser_FirstKnownOneIsTaken', () => {
   expect(languageOf(['en-GB', 'pt-BR'])).toBe('en');
   expect(languageOf(['fr', 'ptx'])).toBe('en');
   expect(languageOf([])).toBe('en');
+});
+
+/** The names between the braces of `array` in a file of the server. */
+const stringsOf = (file: string, array: RegExp): string[] => {
+  const text = readFileSync(new URL(`../../core/doctor/${file}`, import.meta.url), 'utf8');
+  return [...array.exec(text)![0].matchAll(/"([^"]+)"/g)].map(([, name]) => name!);
+};
+
+test('Every finding of the server has its texts in Portuguese', () => {
+  const codes = stringsOf('finding.h', /finding_code_names = [^;]*/);
+  expect(codes.length).toBeGreaterThan(30);
+  expect(Object.keys(portugueseFindings).sort()).toEqual([...codes].sort());
+  for (const code of codes) {
+    for (const points of [['2.2', '3.1'], ['3.6'], []]) {
+      const texts = portugueseFindings[code]!({ points, count: points.length, value: 0.25, what: 'MW', vertex: points.length ? 7 : null });
+      expect(texts).toHaveLength(2);
+      for (const text of texts) expect(text).not.toMatch(/undefined|null|NaN|\bthe\b|[.]$|  /);
+    }
+  }
+});
+
+test('What findings measure has its name in Portuguese', () => {
+  const folder = new URL('../../core/doctor/', import.meta.url);
+  const measures = readdirSync(folder)
+    .filter((name) => name.endsWith('.cpp'))
+    .flatMap((name) => [...readFileSync(new URL(name, folder), 'utf8').matchAll(/measured = \{\s*"([^"]+)"/g)].map(([, what]) => what!));
+  expect(measures.length).toBeGreaterThan(15);
+  for (const what of measures) expect(portugueseMeasure(what), what).not.toBe(what);
+  expect(portugueseMeasure('MW as a fraction of ES0')).toBe('MW como fração de ES0');
 });

@@ -1,5 +1,6 @@
 import { changeLanguage, language, languageOf, languages, type Language } from '../../kept/language.ts';
 import type { portuguese } from './portuguese.ts';
+import type { FindingFacts } from './portuguese_findings.ts';
 
 /** Every text of the studio, in English, as the tables of the other languages list them. */
 export type Text = keyof typeof portuguese;
@@ -10,6 +11,7 @@ export { changeLanguage, language, languageOf, languages, type Language };
 const table: Readonly<Record<Text, string>> | null =
   language === 'pt-BR' ? (await import('./portuguese.ts')).portuguese : null;
 const problems = language === 'pt-BR' ? (await import('./portuguese_problems.ts')).portugueseProblems : null;
+const findings = language === 'pt-BR' ? await import('./portuguese_findings.ts') : null;
 const standard = language === 'pt-BR' ? await import('./portuguese_names.ts') : null;
 
 /** A text in the language of the page, with its `{names}` replaced by values. */
@@ -36,3 +38,10 @@ export const visemeWords = (name: string, english: readonly string[]): readonly 
 
 /** The title of a kind of the server's problems (the end of its `type`) in the language of the page; null: it stays as the server wrote it. */
 export const problemTitle = (slug: string): string | null => problems?.[slug] ?? null;
+
+/** The words and the remedy of a finding in the language of the page; null: they stay as the server wrote them. */
+export const findingTexts = (code: string, facts: FindingFacts): readonly [words: string, remedy: string] | null =>
+  findings?.portugueseFindings[code]?.(facts) ?? null;
+
+/** What a finding measured, in the language of the page. */
+export const measureName = (english: string): string => findings?.portugueseMeasure(english) ?? english;

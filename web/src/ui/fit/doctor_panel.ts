@@ -2,12 +2,12 @@ import { adviceFor, wordsOf } from '../../net/problem.ts';
 import type { Finding, FitReport, Model, Severity } from '../../net/types.ts';
 import { h, replace } from '../shared/dom.ts';
 import { actionFor, type FindingAction } from './finding_actions.ts';
-import { countWords, findingTitle, sentence, severities, severityCount, severityMeanings } from '../shared/finding_words.ts';
+import { countWords, findingTitle, sentence, severities, severityCount, severityMeanings, textsOf } from '../shared/finding_words.ts';
 import type { FitModel } from './fit_model.ts';
 import { formatCount } from '../shared/format.ts';
 import { icon } from '../shared/icons.ts';
 import type { Studio } from '../shared/studio.ts';
-import { language, t } from '../../words/words.ts';
+import { language, measureName, t } from '../../words/words.ts';
 
 export interface DoctorOptions {
   /** Whether enough points are placed for the server to make proposals. */
@@ -115,6 +115,7 @@ export class DoctorPanel {
 
   private row(finding: Finding): HTMLElement {
     const { place, measured } = finding;
+    const [words, remedy] = textsOf(finding);
     const placed =
       place.part !== null || place.points.length > 0 || place.vertices.count > 0 || place.position !== null;
     const action = actionFor(finding, this.options.enoughPoints());
@@ -128,19 +129,19 @@ export class DoctorPanel {
         on: { click: () => this.fit.choose(this.fit.chosen.value === finding ? null : finding) },
       },
       h('strong', {}, findingTitle(finding)),
-      h('span', { class: 'finding-words' }, sentence(finding.words)),
+      h('span', { class: 'finding-words' }, words),
     );
     const facts = [
       place.vertices.count > 0
         ? place.vertices.count === 1 ? t('1 vertex') : t('{count} vertices', { count: formatCount(place.vertices.count) })
         : '',
-      measured ? t('{what}: {value}, a finding from {threshold}', { what: measured.what, value: figure(measured.value), threshold: figure(measured.threshold) }) : '',
+      measured ? t('{what}: {value}, a finding from {threshold}', { what: measureName(measured.what), value: figure(measured.value), threshold: figure(measured.threshold) }) : '',
     ].filter((text) => text !== '');
     const element = h(
       'li',
       { class: `finding ${finding.severity}`, 'data-code': finding.code },
       button,
-      h('p', { class: 'remedy' }, icon('wrench', 15), h('span', {}, sentence(finding.remedy))),
+      h('p', { class: 'remedy' }, icon('wrench', 15), h('span', {}, remedy)),
       facts.length > 0 ? h('p', { class: 'finding-facts small muted' }, facts.join(' · ')) : null,
       action
         ? h(

@@ -1,6 +1,6 @@
 import type { Finding, FindingCounts, Severity } from '../../net/types.ts';
 import { capital } from './names.ts';
-import { nameOf, t } from '../../words/words.ts';
+import { findingTexts, nameOf, t } from '../../words/words.ts';
 
 export const severities: readonly Severity[] = ['error', 'warning', 'note'];
 
@@ -32,6 +32,19 @@ const titles: Record<string, string> = {
 /** "lips-joined" -> "Lips joined". */
 export const findingTitle = (finding: Finding): string =>
   titles[finding.code] ?? nameOf(capital(finding.code.replaceAll('-', ' ')));
+
+/** What is wrong and what to do about it. */
+export function textsOf({ code, words, remedy, place, measured, move }: Finding): readonly [words: string, remedy: string] {
+  const facts = {
+    points: place.points,
+    count: place.vertices.count,
+    value: measured?.value ?? NaN,
+    what: measured?.what ?? '',
+    vertex: move?.vertex ?? null,
+  };
+  const [what, todo] = findingTexts(code, facts) ?? [words, remedy];
+  return [sentence(what), sentence(todo)];
+}
 
 /** Adds capital and full stop; the report's sentences have neither, so that they can be joined. */
 export const sentence = (text: string): string => (text === '' ? '' : capital(text) + (/[.!?]$/.test(text) ? '' : '.'));
