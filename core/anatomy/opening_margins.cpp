@@ -18,6 +18,9 @@ namespace {
 /// Maximum number of places between the middle of a lid and a corner, or between two points of a lip.
 constexpr std::size_t places_of_lid = 9;
 constexpr std::size_t places_of_fold = 5;
+/// Share of a fold's point from which on its places are held. Nearer to a corner the fold runs into the edge, which
+/// must meet the other one.
+constexpr double middle_of_fold = 0.7;
 constexpr std::size_t places_of_lip = 2;
 /// The height of an eye's opening as a share of its width from which on the heights along the edges say how its lids
 /// close. Those of closed lids (`closed_height`) say nothing.
@@ -162,7 +165,7 @@ void add_fold_sites(const Surface& surface, const EyeEdges& eye, const LidEdge& 
     for (const SurfaceVertexId beside : places_on(surface, path, places_of_fold)) {
       const glm::dvec3& edge = surface.positions[beside.value()];
       const double share = arc_share(lid, edge);
-      if (share < 0.5) continue;  // near a corner the fold runs into the edge, which must meet the other one
+      if (share < middle_of_fold) continue;
       const auto off = [&, place = edge + share * from_edge](SurfaceVertexId v) {
         return glm::distance(surface.positions[v.value()], place);
       };
