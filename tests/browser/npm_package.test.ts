@@ -294,6 +294,21 @@ test('Package_ElementOfAFramework_TakesWhatWasSetBeforeItIsDefined_AndWhatIsTake
   });
 });
 
+test('Package_PageOfAnotherOrigin_SaysInTheConsoleHowItIsAllowed', async () => {
+  const face = `<semblante-face src="${server.url}" stream="demo"></semblante-face>`;
+  writeFileSync(join(project, 'foreign.html'), `<!doctype html>${face}<script type="module" src="node_modules/semblante/dist/element.js"></script>`);
+  const [other, browser] = await Promise.all([startServer({ pages: project, demo: false }), launch()]);
+  try {
+    const page = await browser.newPage();
+    const isHint = (text: string): boolean => text.endsWith(`semblante serve --allow-origin ${other.url}`);
+    const hint = page.waitForEvent('console', { predicate: (message) => isHint(message.text()), timeout: patience });
+    await page.goto(`${other.url}/foreign.html`, { timeout: patience });
+    expect((await hint).type()).toBe('warning');
+  } finally {
+    await Promise.all([browser.close(), other.stop()]);
+  }
+});
+
 test('Package_Greeting_IsSaidInBothLanguages', async () => {
   const greeting = join(unpacked, 'greeting.html');
   writeFileSync(greeting, readFileSync(greeting, 'utf8').replace('http://127.0.0.1:8080', server.url));

@@ -63,11 +63,23 @@ function troubleOf(status: number, absent: Trouble, name: string): FaceTrouble {
   return trouble(absentStatuses.has(status) ? absent : 'server', name);
 }
 
+const hinted = new Set<string>();
+
+/** To the page's developer, once a server: the browser does not tell a page a refused origin from a server that is down. */
+function hintOrigin(base: string): void {
+  const { origin } = location;
+  if (new URL(base, location.href).origin === origin || hinted.has(base)) return;
+  hinted.add(base);
+  console.warn(`semblante-face: ${base} cannot be reached, or refuses pages of another origin: semblante serve --allow-origin ${origin}`);
+}
+
 /** The id of the model that a stream shows. Throws FaceTrouble. */
 export async function modelOf(source: Source, signal: AbortSignal): Promise<string> {
   const address = `${source.base}/v1/streams/${encodeURIComponent(source.stream)}`;
   const response = await requestOf(source)(address, { signal }).catch((error: unknown) => {
-    throw signal.aborted ? error : trouble('unreachable');
+    if (signal.aborted) throw error;
+    hintOrigin(source.base);
+    throw trouble('unreachable');
   });
   if (!response.ok) throw troubleOf(response.status, 'no-stream', shown(source.stream));
   const { model } = (await response.json().catch(() => ({}))) as { model?: unknown };
