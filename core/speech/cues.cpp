@@ -9,12 +9,13 @@
 namespace semblante {
 namespace {
 
-constexpr std::size_t most_letters = 74;    ///< of a cue
-constexpr double least_clause_share = 0.6;  ///< of the mean length of a cue: what a clause has, at least, that ends one
+constexpr std::size_t most_letters = 74;  ///< of a cue
+/// A cue may end with a clause if it has this share of the mean length of the sentence's cues.
+constexpr double least_clause_share = 0.6;
 
 /// First and last characters that are as wide as two letters: Hangul, Han, kana, and the signs of their fullwidth
 /// forms.
-constexpr std::array<std::array<std::string_view, 2>, 6> wide = {{
+constexpr std::array<CharacterRange, 6> wide = {{
     {"\u1100", "\u115F"},
     {"\u2E80", "\uA4CF"},
     {"\uAC00", "\uD7A3"},
@@ -26,13 +27,8 @@ constexpr std::array<std::array<std::string_view, 2>, 6> wide = {{
 std::size_t width_of(std::string_view text) {
   std::size_t sum = 0;
   while (!text.empty()) {
-    // The bytes of UTF-8 have the order of the characters.
-    const std::string_view character = text.substr(0, utf8_step(text));
-    const bool is_wide = std::any_of(wide.begin(), wide.end(), [character](const auto& range) {
-      return character >= range[0] && character <= range[1];
-    });
-    sum += is_wide ? 2 : 1;
-    text.remove_prefix(character.size());
+    sum += begins_in(text, wide) ? 2 : 1;
+    text.remove_prefix(utf8_step(text));
   }
   return sum;
 }

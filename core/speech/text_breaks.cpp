@@ -20,7 +20,7 @@ constexpr std::array<std::string_view, 11> closing = {"\"", "'", ")", "]", "}", 
 constexpr std::size_t long_clause = 160;  ///< letters
 /// First and last characters of the marks (Unicode's categories Mn and Mc, and joiners) of scripts that write no spaces
 /// between words: Thai, Lao, Tibetan, Myanmar, Khmer, kana; accents of any script; of emoji, skin tones and selectors.
-constexpr std::array<std::array<std::string_view, 2>, 22> joining = {{
+constexpr std::array<CharacterRange, 22> joining = {{
     {"\u0300", "\u036F"}, {"\u0E31", "\u0E31"},         {"\u0E33", "\u0E3A"}, {"\u0E47", "\u0E4E"},
     {"\u0EB1", "\u0EB1"}, {"\u0EB3", "\u0EBC"},         {"\u0EC8", "\u0ECE"}, {"\u0F18", "\u0F19"},
     {"\u0F35", "\u0F35"}, {"\u0F37", "\u0F37"},         {"\u0F39", "\u0F39"}, {"\u0F3E", "\u0F3F"},
@@ -73,12 +73,15 @@ std::size_t letters_of_character(std::string_view text) {
   return is_spelled ? 40 : 6;
 }
 
-bool joins_before(std::string_view text) {
+bool begins_in(std::string_view text, std::span<const CharacterRange> ranges) {
   // The bytes of UTF-8 have the order of the characters.
   const std::string_view character = text.substr(0, utf8_step(text));
-  return std::any_of(joining.begin(), joining.end(),
-                     [character](const auto& range) { return character >= range[0] && character <= range[1]; });
+  return std::any_of(ranges.begin(), ranges.end(), [character](const CharacterRange& range) {
+    return character >= range[0] && character <= range[1];
+  });
 }
+
+bool joins_before(std::string_view text) { return begins_in(text, joining); }
 
 bool has_signs_alone(std::string_view text) {
   bool has_sign = false;

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <span>
 #include <string_view>
 
 namespace semblante {
@@ -38,6 +40,11 @@ bool ends_clause(std::string_view text);
 
 /// Where a word that begins at a byte is written from: at the quotation marks and brackets before it.
 std::size_t with_opening(std::string_view text, std::size_t byte);
+
+/// First and last of characters that follow each other in Unicode.
+using CharacterRange = std::array<std::string_view, 2>;
+/// Whether the first character of a text is in one of the ranges.
+bool begins_in(std::string_view text, std::span<const CharacterRange> ranges);
 
 /// Whether a text begins with a character that is written on the one before it: vowels and tones of scripts that write
 /// no spaces, accents, and what joins emoji.

@@ -99,7 +99,7 @@ TEST(AttachedVertices, LashesOfAClosedEye_FollowTheirOwnLids) {
   const auto followed = followed_by_attached(surface, parts, points_of_eye(surface, model, plate));
   for (const bool is_upper : {true, false}) {
     for (std::uint32_t r = 0; r < rows; ++r) {
-      // The middle column: the others are as near to the corners, which are of both lids.
+      // Only the middle column is compared: the other columns are as near to the corners, which both lids share.
       const auto& row = followed[surface.surface_of[(is_upper ? upper : lower) + r * strip_columns + 2].value()];
       EXPECT_FALSE(row.empty());
       for (const FollowedVertex& f : row) {
