@@ -4,7 +4,7 @@ import type { BrowserContextOptions } from 'playwright-core';
 import { beforeAll, describe, expect, test } from 'vitest';
 import { root } from './support/paths.ts';
 import { startServer } from './support/server.ts';
-import { StudioPage } from './support/studio_page.ts';
+import { coarse, StudioPage } from './support/studio_page.ts';
 import { browser, server, useStudio } from './support/suite.ts';
 import { everyVariant } from './support/variants.ts';
 
@@ -53,7 +53,7 @@ const everyLook: Look[] = [
 const looks = everyLook.filter(({ extra }) => everyVariant || !extra);
 
 async function open({ options }: Look, at: string, allowed?: RegExp): Promise<StudioPage> {
-  const context = await browser.newContext({ reducedMotion: 'reduce', deviceScaleFactor: 0.5, ...options });
+  const context = await browser.newContext({ reducedMotion: 'reduce', deviceScaleFactor: coarse, ...options });
   return StudioPage.openIn(context, server.url + at, allowed ? { allowed } : {});
 }
 

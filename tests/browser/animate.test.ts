@@ -43,7 +43,7 @@ describe('animate', () => {
   });
 
   test('RecordByHand_SlidersThatAreMoved_PlayAndLoopAsAFile', async () => {
-    const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { width: 1280, height: 720, coarse: true });
+    const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { width: 1280, height: 720 });
     const { page } = studio;
     await studio.waitForStage('ready');
     await page.getByRole('button', { name: 'Record by hand' }).click();
@@ -69,7 +69,7 @@ describe('animate', () => {
   });
 
   test('VisemePad_PointerAndKeys_BlendTheTwoNearestMouthShapes', async () => {
-    const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { width: 1280, height: 720, coarse: true });
+    const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { width: 1280, height: 720 });
     const { page } = studio;
     await studio.waitForStage('ready');
     const pad = page.locator('.viseme-pad');
@@ -93,7 +93,7 @@ describe('animate', () => {
   });
 
   test('DoubleClick_OnAFaceWhoseStillModelWasNeverLoaded_GoesNearer', async () => {
-    const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { width: 1280, height: 720, coarse: true });
+    const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { width: 1280, height: 720 });
     const { page } = studio;
     await studio.waitForStage('ready');
     const before = await distanceOf(studio);

@@ -47,7 +47,7 @@ const camera = (studio: StudioPage): Promise<number[]> =>
 
 describe('camera', () => {
   test('Camera_ChosenPoint_IsSeenFromInFrontOfItAndTheFaceStaysLarge', async () => {
-    const studio = await StudioPage.open(browser, `${server.url}/#sample/points?point=10.3`, { width: 1280, height: 720, coarse: true });
+    const studio = await StudioPage.open(browser, `${server.url}/#sample/points?point=10.3`, { width: 1280, height: 720 });
     const { page } = studio;
     await studio.waitForStage('ready');
     const height = known['11.4']!.position[1]! - known['2.1']!.position[1]!;
@@ -91,7 +91,7 @@ describe('camera', () => {
   });
 
   test('Camera_WithoutReducedMotion_Flies', async () => {
-    const studio = await StudioPage.open(browser, `${server.url}/#sample/points`, { width: 900, coarse: true, motion: 'no-preference' });
+    const studio = await StudioPage.open(browser, `${server.url}/#sample/points`, { width: 900, motion: 'no-preference' });
     await studio.waitForStage('ready');
     await studio.page.getByRole('button', { name: 'All 84' }).click();
     // Choosing and looking are one step of the page: no frame is drawn between.

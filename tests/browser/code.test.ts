@@ -133,7 +133,7 @@ describe('code to copy', () => {
   });
 
   test('ClipsAndRecordings_EachProgramSavesThem', async () => {
-    const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { width: 1440, height: 900, coarse: true });
+    const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { width: 1440, height: 900 });
     const { page } = studio;
     await studio.waitForStage('ready');
     await makeFace(page);

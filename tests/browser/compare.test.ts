@@ -82,7 +82,7 @@ async function untilAtRest(page: Page): Promise<void> {
 }
 
 async function open(): Promise<StudioPage> {
-  const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { coarse: true, width: 1100, height: 600 });
+  const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { width: 1100, height: 600 });
   await studio.waitForStage('ready');
   return studio;
 }
@@ -205,7 +205,7 @@ describe('side by side', () => {
   });
 
   test('Compare_OnAPhone_StandsSideBySide_WithShortLabels_AndLeavesTheFacesRoom', async () => {
-    const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { ...phone, coarse: true });
+    const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { ...phone });
     await studio.waitForStage('ready');
     const { page } = studio;
     await page.locator('#compare-with').selectOption('level 1');

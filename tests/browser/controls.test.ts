@@ -14,7 +14,7 @@ const unfold = ({ page }: StudioPage): Promise<void> =>
 
 describe('controls', () => {
   test('Touch_At390Pixels_EveryControlIs44PixelsWideAndTall', async () => {
-    const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { ...phone, coarse: true });
+    const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { ...phone });
     const { page } = studio;
     await studio.waitForStage('ready');
     for (const box of ['influence-view', 'units-view']) await page.locator(`#${box}`).check();
@@ -61,7 +61,7 @@ describe('controls', () => {
   });
 
   test('Progress_OfAnImport_IsSaidByALiveRegionUntilItIsDone', async () => {
-    const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { coarse: true });
+    const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`);
     const { page } = studio;
     await studio.waitForStage('ready');
     await page.evaluate(() => {
@@ -79,7 +79,7 @@ describe('controls', () => {
   });
 
   test('Keyboard_EachTab_HasFewStopsAndEachOfThemIsSeen', async () => {
-    const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { width: 1280, height: 800, coarse: true });
+    const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { width: 1280, height: 800 });
     const { page } = studio;
     await studio.waitForStage('ready');
     // Of the whole page: head and shelf are 8 of them.

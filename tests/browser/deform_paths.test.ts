@@ -60,7 +60,7 @@ async function check(studio: StudioPage): Promise<void> {
 
 describe('deformation', () => {
   test('Shader_SampleHead_AgreesWithTheKernel', async () => {
-    const studio = await StudioPage.open(browser, server.url);
+    const studio = await StudioPage.open(browser, server.url, { sharp: true });
     await studio.waitForStage('ready');
     await check(studio);
     expect(studio.errors).toEqual([]);
@@ -93,7 +93,7 @@ describe('deformation', () => {
     });
     await until('parametrized');
 
-    const studio = await StudioPage.open(browser, `${server.url}/#${model.id}`);
+    const studio = await StudioPage.open(browser, `${server.url}/#${model.id}`, { sharp: true });
     await studio.waitForStage('ready');
     await check(studio);
     expect(studio.errors).toEqual([]);

@@ -91,7 +91,7 @@ describe('export', () => {
   });
 
   test('Video_OfASpeech_HasPictureAndSoundAndEndsWithIt', async () => {
-    const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { width: 880, height: 560 });
+    const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { width: 880, height: 560, sharp: true });
     const { page } = studio;
     await studio.waitForStage('ready');
     const video = page.getByRole('button', { name: 'Video' });
@@ -120,7 +120,7 @@ describe('export', () => {
   });
 
   test('Video_OfAFollowedStream_HasItsSound', async () => {
-    const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { width: 880, height: 560, coarse: true });
+    const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { width: 880, height: 560 });
     const { page } = studio;
     await studio.waitForStage('ready');
     await page.getByRole('textbox', { name: 'Text to say' }).first().fill('Hello, hello, hello there.');

@@ -1,12 +1,13 @@
 import { expect, test } from 'vitest';
 import { patience } from './support/patience.ts';
 import type { Inside } from './support/studio_page.ts';
+import { coarse } from './support/studio_page.ts';
 import { browser, server, useStudio } from './support/suite.ts';
 
 useStudio();
 
 test('Studio_FirstVisit_MovesWithAtMost900kB_OfItScript300kB', async () => {
-  const context = await browser.newContext({ viewport: { width: 880, height: 560 }, serviceWorkers: 'block' });
+  const context = await browser.newContext({ viewport: { width: 880, height: 560 }, deviceScaleFactor: coarse, serviceWorkers: 'block' });
   context.setDefaultTimeout(patience);
   const page = await context.newPage();
   const session = await context.newCDPSession(page);

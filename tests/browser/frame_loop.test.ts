@@ -2,7 +2,7 @@ import { join } from 'node:path';
 import type { CDPSession } from 'playwright-core';
 import { expect, test } from 'vitest';
 import { root } from './support/paths.ts';
-import { StudioPage, type Inside } from './support/studio_page.ts';
+import { coarse, StudioPage, type Inside } from './support/studio_page.ts';
 import { browser, server, useStudio } from './support/suite.ts';
 
 /**
@@ -42,7 +42,7 @@ async function bytesOfAFrame(studio: StudioPage, devtools: CDPSession): Promise<
 }
 
 test('FrameLoop_StreamDocumentFileAndIdleLife_AllocatesNothing', async () => {
-  const context = await browser.newContext({ viewport: { width: 360, height: 320 }, deviceScaleFactor: 0.5, reducedMotion: 'reduce' });
+  const context = await browser.newContext({ viewport: { width: 360, height: 320 }, deviceScaleFactor: coarse, reducedMotion: 'reduce' });
   const studio = await StudioPage.openIn(context, server.url);
   const { page } = studio;
   const devtools = await context.newCDPSession(page);

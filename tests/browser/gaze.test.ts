@@ -153,7 +153,7 @@ test('Gaze_EyesWithoutAnIrisOfTheFile_AreRoundWhereTheGazePiercesThem', async ()
   const id = await upload();
   const eye = await leftEye(id);
   expect(eye.pupilRadius / eye.irisRadius).toBeCloseTo(1 / 3, 5);
-  const studio = await StudioPage.open(browser, `${server.url}/#${id}`, { width: 1300, height: 1000 });
+  const studio = await StudioPage.open(browser, `${server.url}/#${id}`, { width: 1300, height: 1000, sharp: true });
   await studio.waitForStage('ready');
   await studio.page.evaluate((place) => {
     const { scene } = (window as unknown as { semblante: { scene: { stage: { look(view: string): void; focus(at: Vector): void } } } }).semblante;

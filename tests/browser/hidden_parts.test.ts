@@ -32,7 +32,7 @@ const point = async ({ page }: StudioPage, x: number, y: number): Promise<void> 
 
 describe('hidden parts', () => {
   test('Parts_KeyAndList_HideWhatIsNotPickedAndAreRemembered', async () => {
-    const studio = await StudioPage.open(browser, `${server.url}/#sample/points`, { coarse: true, width: 1440, height: 900 });
+    const studio = await StudioPage.open(browser, `${server.url}/#sample/points`, { width: 1440, height: 900 });
     const { page } = studio;
     await studio.waitForStage('ready');
     const box = page.locator('.parts-box:not(.scans)');
@@ -93,7 +93,7 @@ describe('hidden parts', () => {
   });
 
   test('Parts_Finger_HidesByTheList', async () => {
-    const studio = await StudioPage.open(browser, `${server.url}/#sample/points`, { coarse: true, ...phone, locale: 'pt-BR', dark: true });
+    const studio = await StudioPage.open(browser, `${server.url}/#sample/points`, { ...phone, locale: 'pt-BR', dark: true });
     const { page } = studio;
     await studio.waitForStage('ready');
     const middle = await partAt(studio, 0.5, 0.5);

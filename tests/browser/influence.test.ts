@@ -7,7 +7,7 @@ useStudio();
 
 /** Opens the sample with its influence view, the face at rest in the hand. */
 async function open(options: { width?: number; height?: number; dark?: boolean } = {}): Promise<StudioPage> {
-  const studio = await StudioPage.open(browser, server.url, { coarse: true, width: 1100, height: 720, ...options });
+  const studio = await StudioPage.open(browser, server.url, { width: 1100, height: 720, ...options });
   await studio.waitForStage('ready');
   await studio.page.evaluate(() => (window as unknown as Inside).semblante.driver.byHand());
   await studio.page.locator('#influence-view').check();
@@ -181,7 +181,7 @@ describe('influence', () => {
   });
 
   test('Influence_KeyboardOnly_SwitchesChoosesAndReads', async () => {
-    const studio = await StudioPage.open(browser, server.url, { coarse: true, width: 1100, height: 720 });
+    const studio = await StudioPage.open(browser, server.url, { width: 1100, height: 720 });
     await studio.waitForStage('ready');
     const { page } = studio;
     await page.locator('#influence-view').focus();
@@ -206,7 +206,7 @@ describe('influence', () => {
   });
 
   test('Influence_LongPressOnAPhone_ReadsAndNothingOverflows', async () => {
-    const studio = await StudioPage.open(browser, server.url, { ...phone, coarse: true });
+    const studio = await StudioPage.open(browser, server.url, { ...phone });
     await studio.waitForStage('ready');
     const { page } = studio;
     await page.locator('#influence-view').tap();
@@ -252,7 +252,7 @@ interface WithUnits {
 
 describe('units', () => {
   test('Units_ByHand_AreStoredDrawnAndTakenBack', async () => {
-    const studio = await StudioPage.open(browser, server.url, { coarse: true, width: 1100, height: 720 });
+    const studio = await StudioPage.open(browser, server.url, { width: 1100, height: 720 });
     await studio.waitForStage('ready');
     const { page } = studio;
     await page.evaluate(() => (window as unknown as Inside).semblante.driver.byHand());

@@ -49,12 +49,12 @@ interface Way {
   makeHand: () => Hand;
 }
 const ways: Way[] = [
-  { name: 'ByMouse_English', options: { width: 1440, height: 900, locale: 'en-US', coarse: true }, makeHand: () => new MouseHand() },
-  { name: 'ByKeyboard_English', extra: true, options: { width: 1100, height: 700, locale: 'en-US', coarse: true }, makeHand: () => new KeyboardHand() },
-  { name: 'ByMouse_Portuguese', extra: true, options: { width: 1024, height: 768, locale: 'pt-BR', coarse: true }, makeHand: () => new MouseHand() },
-  { name: 'ByKeyboard_Portuguese', options: { width: 1100, height: 700, locale: 'pt-BR', coarse: true }, makeHand: () => new KeyboardHand() },
-  { name: 'ByFinger_English', extra: true, options: { ...phone, locale: 'en-US', coarse: true }, makeHand: () => new FingerHand() },
-  { name: 'ByFinger_Portuguese', options: { ...phone, locale: 'pt-BR', coarse: true }, makeHand: () => new FingerHand() },
+  { name: 'ByMouse_English', options: { width: 1440, height: 900, locale: 'en-US' }, makeHand: () => new MouseHand() },
+  { name: 'ByKeyboard_English', extra: true, options: { width: 1100, height: 700, locale: 'en-US' }, makeHand: () => new KeyboardHand() },
+  { name: 'ByMouse_Portuguese', extra: true, options: { width: 1024, height: 768, locale: 'pt-BR' }, makeHand: () => new MouseHand() },
+  { name: 'ByKeyboard_Portuguese', options: { width: 1100, height: 700, locale: 'pt-BR' }, makeHand: () => new KeyboardHand() },
+  { name: 'ByFinger_English', extra: true, options: { ...phone, locale: 'en-US' }, makeHand: () => new FingerHand() },
+  { name: 'ByFinger_Portuguese', options: { ...phone, locale: 'pt-BR' }, makeHand: () => new FingerHand() },
 ];
 
 interface Recordings {

@@ -7,7 +7,7 @@ import type { BrowserContextOptions } from 'playwright-core';
 import { untilFace } from './support/face_page.ts';
 import { buildDir, root } from './support/paths.ts';
 import { startServer, type RunningServer } from './support/server.ts';
-import { StudioPage } from './support/studio_page.ts';
+import { coarse, StudioPage } from './support/studio_page.ts';
 import { browser, server, useStudio } from './support/suite.ts';
 
 /** Every screen in every look, to be looked at by people; without it two looks, whose layout alone is checked. */
@@ -59,7 +59,7 @@ class Screens {
   ) {}
 
   static async open(look: Look, url: string, allowed?: RegExp): Promise<Screens> {
-    const context = await browser.newContext(look.options);
+    const context = await browser.newContext({ deviceScaleFactor: all ? 1 : coarse, ...look.options });
     return new Screens(await StudioPage.openIn(context, url, allowed ? { allowed } : {}), look);
   }
 

@@ -63,7 +63,7 @@ afterAll(async () => {
 });
 
 async function open(): Promise<StudioPage> {
-  const page = await StudioPage.open(browser, server.url, { coarse: true });
+  const page = await StudioPage.open(browser, server.url);
   await page.waitForStage('ready');
   await page.page.getByRole('tab', { name: 'Animate' }).click();
   return page;

@@ -5,7 +5,7 @@ import { browser, server, useStudio } from './support/suite.ts';
 useStudio({ demo: false });
 
 test('Studio_ServerWithoutADemo_WaitsForNoStream', async () => {
-  const studio = await StudioPage.open(browser, server.url, { coarse: true });
+  const studio = await StudioPage.open(browser, server.url);
   await studio.waitForStage('ready');
   const chip = studio.page.locator('.driver');
   await chip.getByText('By hand').waitFor();
@@ -15,7 +15,7 @@ test('Studio_ServerWithoutADemo_WaitsForNoStream', async () => {
 });
 
 test('Studio_ManyHeads_TheStepsStayInSight', async () => {
-  const studio = await StudioPage.open(browser, 'about:blank', { width: 1280, height: 720, coarse: true });
+  const studio = await StudioPage.open(browser, 'about:blank', { width: 1280, height: 720 });
   const { page } = studio;
   await page.route('**/v1/models?**', async (route) => {
     if (route.request().method() !== 'GET') return route.continue();
@@ -55,7 +55,7 @@ test('Studio_ManyHeads_TheStepsStayInSight', async () => {
 
 test('Studio_EmptyServer_OffersTheSampleAndLeadsToItsPlay', async () => {
   await fetch(`${server.url}/v1/models/sample`, { method: 'DELETE' });
-  const studio = await StudioPage.open(browser, server.url, { width: 1280, height: 720, coarse: true });
+  const studio = await StudioPage.open(browser, server.url, { width: 1280, height: 720 });
   const { page } = studio;
   const done = (): Promise<number> => page.locator('.steps-list .done').count();
   await page.getByText('No heads yet.').first().waitFor();

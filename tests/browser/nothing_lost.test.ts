@@ -22,7 +22,7 @@ async function mark(studio: StudioPage, ids: readonly string[]): Promise<void> {
 
 describe('nothing is lost', () => {
   test('Draft_ReloadAndAnotherHead_IsBackUntilItIsDiscarded', async () => {
-    const studio = await StudioPage.open(browser, server.url, { width: 1280, height: 720, coarse: true });
+    const studio = await StudioPage.open(browser, server.url, { width: 1280, height: 720 });
     const { page } = studio;
     await studio.waitForStage('ready');
     await studio.drop(sampleHead, 'draft.glb');
@@ -62,7 +62,7 @@ describe('nothing is lost', () => {
   });
 
   test('Points_TwoPeopleAtOneHead_SeeEachOthersChangesOrChoose', async () => {
-    const studio = await StudioPage.open(browser, `${server.url}/#sample/points`, { width: 1280, height: 720, coarse: true });
+    const studio = await StudioPage.open(browser, `${server.url}/#sample/points`, { width: 1280, height: 720 });
     const { page } = studio;
     await studio.waitForStage('ready');
     await page.getByRole('button', { name: 'Saved' }).waitFor();
@@ -106,7 +106,7 @@ describe('nothing is lost', () => {
   });
 
   test('Address_HeadTabPointAndStream_AreNamedAndComeBack', async () => {
-    const studio = await StudioPage.open(browser, server.url, { width: 1280, height: 720, coarse: true });
+    const studio = await StudioPage.open(browser, server.url, { width: 1280, height: 720 });
     const { page } = studio;
     await studio.waitForStage('ready');
     const hash = (): Promise<string> => page.evaluate(() => location.hash);
@@ -134,7 +134,7 @@ describe('nothing is lost', () => {
     const stream = (await (
       await fetch(`${server.url}/v1/streams`, { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify({ title: 'mine' }) })
     ).json()) as { id: string };
-    const other = await StudioPage.open(browser, `${server.url}/#sample/live?stream=${stream.id}`, { width: 1280, height: 720, coarse: true });
+    const other = await StudioPage.open(browser, `${server.url}/#sample/live?stream=${stream.id}`, { width: 1280, height: 720 });
     await other.waitForStage('ready');
     await other.page.locator('#tab-live[aria-selected=true]').waitFor();
     await other.page.waitForFunction((id) => (window as unknown as Inside).semblante.live.following.value === id, stream.id);
@@ -145,7 +145,7 @@ describe('nothing is lost', () => {
     await other.close();
 
     // Another client uploads a head; its link is opened in a page that has not heard of it.
-    const late = await StudioPage.open(browser, server.url, { width: 1280, height: 720, coarse: true });
+    const late = await StudioPage.open(browser, server.url, { width: 1280, height: 720 });
     await late.waitForStage('ready');
     const { model } = (await (
       await fetch(`${server.url}/v1/models?name=Late&filename=late.glb`, { method: 'POST', body: readFileSync(sampleHead), headers: { 'Content-Type': 'model/gltf-binary' } })
@@ -161,7 +161,7 @@ describe('nothing is lost', () => {
     expect(late.errors).toEqual([]);
     await late.close();
 
-    const lost = await StudioPage.open(browser, `${server.url}/#nobody/points?point=9.9&stream=x`, { width: 1280, height: 720, coarse: true });
+    const lost = await StudioPage.open(browser, `${server.url}/#nobody/points?point=9.9&stream=x`, { width: 1280, height: 720 });
     await lost.page.getByText('The head of this address is not on the server.').waitFor();
     await lost.waitForStage('ready');
     expect(lost.errors).toEqual([]);

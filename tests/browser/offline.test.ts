@@ -2,7 +2,7 @@ import type { Browser } from 'playwright-core';
 import { afterAll, beforeAll, expect, test } from 'vitest';
 import { eventually } from './support/patience.ts';
 import { startServer, type RunningServer } from './support/server.ts';
-import { launch, StudioPage } from './support/studio_page.ts';
+import { coarse, launch, StudioPage } from './support/studio_page.ts';
 
 let server: RunningServer;
 let browser: Browser;
@@ -24,7 +24,7 @@ const kept = ({ page }: StudioPage): Promise<string[]> =>
   });
 
 test('Studio_WithoutAServer_OpensWithTheHeadsSeenAndSaysWhatDoesNotWork', async () => {
-  const context = await browser.newContext({ viewport: { width: 1280, height: 720 }, reducedMotion: 'reduce' });
+  const context = await browser.newContext({ viewport: { width: 1280, height: 720 }, deviceScaleFactor: coarse, reducedMotion: 'reduce' });
   const studio = await StudioPage.openIn(context, server.url, { allowed: /./ });
   const { page } = studio;
   await studio.waitForStage('ready');

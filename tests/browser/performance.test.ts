@@ -24,7 +24,7 @@ const file = (name: string, text: string): string => {
 
 describe('performance', () => {
   test('Performance_Dropped_PlaysOnTheFaceAndStops', async () => {
-    const studio = await StudioPage.open(browser, server.url, { coarse: true });
+    const studio = await StudioPage.open(browser, server.url);
     const { page } = studio;
     await studio.waitForStage('ready');
     // A long cue, so that its effect is visible whenever the test compares pictures.
@@ -60,7 +60,7 @@ describe('performance', () => {
   });
 
   test('Performance_WithAFault_ShowsTheLine', async () => {
-    const studio = await StudioPage.open(browser, server.url, { coarse: true, allowed: /status of 4\d\d/ });
+    const studio = await StudioPage.open(browser, server.url, { allowed: /status of 4\d\d/ });
     const { page } = studio;
     await studio.waitForStage('ready');
     await page.locator('#tab-live').click();
@@ -88,7 +88,7 @@ describe('performance', () => {
     });
     expect(started.status).toBe(202);
 
-    const studio = await StudioPage.open(browser, server.url, { coarse: true, allowed: /status of 409/ });
+    const studio = await StudioPage.open(browser, server.url, { allowed: /status of 409/ });
     const { page } = studio;
     const section = page.locator('.performance');
     await studio.waitForStage('ready');
@@ -111,7 +111,7 @@ describe('performance', () => {
   });
 
   test('FapFile_Dropped_PlaysOnThisFaceAlone', async () => {
-    const studio = await StudioPage.open(browser, server.url, { coarse: true });
+    const studio = await StudioPage.open(browser, server.url);
     const { page } = studio;
     await studio.waitForStage('ready');
     const clip = page.locator('.clip');
@@ -137,7 +137,7 @@ describe('performance', () => {
   });
 
   test('Performance_DroppedOnAnimate_PlaysOnThisFaceAlone', async () => {
-    const studio = await StudioPage.open(browser, server.url, { coarse: true });
+    const studio = await StudioPage.open(browser, server.url);
     const { page } = studio;
     await studio.waitForStage('ready');
     const clip = page.locator('.clip');

@@ -25,7 +25,7 @@ const angle = (a: Vector, b: Vector): number => Math.acos(Math.min(1, a.reduce((
 const apart = (a: Vector, b: Vector): number => length(a.map((x, axis) => x - b[axis]!) as Vector);
 
 test('Phone_Fingers_OneTurnsTheHeadTwoMoveItAndADoubleTapGoesNearer', async () => {
-  const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { ...phone, coarse: true });
+  const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { ...phone });
   const { page } = studio;
   await studio.waitForStage('ready');
   const devtools = await page.context().newCDPSession(page);
@@ -65,7 +65,7 @@ test('Phone_Fingers_OneTurnsTheHeadTwoMoveItAndADoubleTapGoesNearer', async () =
 });
 
 test('Phone_SlidersBelow_TheFaceStaysInTheUpperHalf_AndTheTitleNamesThePlace', async () => {
-  const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { ...phone, coarse: true });
+  const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { ...phone });
   const { page } = studio;
   await studio.waitForStage('ready');
   const stage = page.locator('canvas.canvas');

@@ -33,7 +33,7 @@ async function stored(studio: StudioPage): Promise<Points['points']> {
 }
 
 async function openNew(name: string): Promise<StudioPage> {
-  const studio = await StudioPage.open(browser, server.url, { coarse: true });
+  const studio = await StudioPage.open(browser, server.url);
   await studio.waitForStage('ready');
   await studio.drop(sampleHead, name);
   await studio.waitForState('ready');
@@ -44,7 +44,7 @@ async function openNew(name: string): Promise<StudioPage> {
 
 describe('feature points', () => {
   test('Points_OnAPhone_TheButtonThatBeginsIsNotCovered', async () => {
-    const studio = await StudioPage.open(browser, server.url, { ...phone, coarse: true });
+    const studio = await StudioPage.open(browser, server.url, { ...phone });
     const { page } = studio;
     await studio.waitForStage('ready');
     await studio.drop(sampleHead, 'phone.glb');

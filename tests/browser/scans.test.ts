@@ -15,7 +15,7 @@ async function worn(studio: StudioPage): Promise<string[]> {
 }
 
 test.skipIf(faces === null)('Scans_OfAHeadInExpressions_BecomeItsOwnAndAreTakenOff', async () => {
-  const studio = await StudioPage.open(browser, server.url, { width: 1280, height: 720, coarse: true });
+  const studio = await StudioPage.open(browser, server.url, { width: 1280, height: 720 });
   const { page } = studio;
   await studio.waitForStage('ready');
   await studio.drop(join(head, 'neutral.obj'));

@@ -2,7 +2,7 @@ import { join } from 'node:path';
 import { expect, test } from 'vitest';
 import { bytesOf, growthOf, heldByScripts, type Holdings } from './support/heap.ts';
 import { root, sampleHead } from './support/paths.ts';
-import { StudioPage, type Inside } from './support/studio_page.ts';
+import { coarse, StudioPage, type Inside } from './support/studio_page.ts';
 import { browser, server, useStudio } from './support/suite.ts';
 
 /** How long the studio is used; without it, the few rounds that show what grows with each of them. */
@@ -50,7 +50,7 @@ function countGpuObjects(): void {
 useStudio();
 
 test('Studio_Used_HoldsNoMoreAfterEachRound', async () => {
-  const context = await browser.newContext({ viewport: { width: 880, height: 560 }, deviceScaleFactor: 0.5, reducedMotion: 'reduce' });
+  const context = await browser.newContext({ viewport: { width: 880, height: 560 }, deviceScaleFactor: coarse, reducedMotion: 'reduce' });
   await context.addInitScript(countGpuObjects);
   const studio = await StudioPage.openIn(context, server.url);
   const { page } = studio;

@@ -58,7 +58,7 @@ async function openingAt(page: StudioPage, ms: number): Promise<number> {
 }
 
 async function open(url: string, options = {}): Promise<StudioPage> {
-  const page = await StudioPage.open(browser, url, { coarse: true, ...options });
+  const page = await StudioPage.open(browser, url, { ...options });
   await page.waitForStage('ready');
   await page.page.getByRole('tab', { name: 'Animate' }).click();
   return page;

@@ -131,7 +131,7 @@ describe('the timeline', () => {
   });
 
   test('Example_ByFinger_At390Pixels_CuesAreDraggedStretchedAndLongPressed', async () => {
-    const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { ...phone, coarse: true });
+    const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { ...phone });
     const { page } = studio;
     await studio.waitForStage('ready');
     const file = join(scratch, 'finger.json');

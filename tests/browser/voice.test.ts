@@ -5,7 +5,7 @@ import { untilFace } from './support/face_page.ts';
 import { patience } from './support/patience.ts';
 import { root } from './support/paths.ts';
 import { startServer, type RunningServer } from './support/server.ts';
-import { launch } from './support/studio_page.ts';
+import { coarse, launch } from './support/studio_page.ts';
 
 /** The page of a stream whose text the browser's own voice says. The server's voice, of tones, gives the times. */
 let server: RunningServer;
@@ -66,7 +66,7 @@ const ask = (method: string, path: string, body?: object): Promise<Response> =>
 /** The page of the stream "talk" with such a voice, or with none; and how many messages of each type it got. */
 async function open(given: { language: string; dumb: boolean } | null): Promise<{ page: Page; got: (type: number) => number; sent: (type: number) => number; bytes: () => number }> {
   expect((await ask('POST', '/v1/streams', { name: 'talk', model: 'sample' })).status).toBe(201);
-  const context = await browser.newContext({ viewport: { width: 390, height: 844 } });
+  const context = await browser.newContext({ viewport: { width: 390, height: 844 }, deviceScaleFactor: coarse });
   context.setDefaultTimeout(patience);
   const page = await context.newPage();
   if (given) await page.addInitScript(voice, given);

@@ -22,13 +22,16 @@ export interface OpenOptions {
   touch?: boolean;
   motion?: BrowserContextOptions['reducedMotion'];
   /**
-   * Whether the page and its pictures have half their pixels along each side, for tests that need neither single pixels nor an
-   * exact layout: without a graphics card most of a test's time is the drawing of pixels.
+   * A page with all its pixels, for tests of single pixels. The others have half of them along each side, as `coarse` says: without
+   * a graphics card most of a test's time is the drawing of pixels.
    */
-  coarse?: boolean;
+  sharp?: boolean;
   /** Console errors that the test expects; a refused request, for example, is logged as a failed one. */
   allowed?: RegExp;
 }
+
+/** Device pixels along a side of a CSS pixel, for tests that look at no single ones. */
+export const coarse = 0.5;
 
 /** A phone, for `StudioPage.open`. */
 export const phone = { width: 390, height: 844, touch: true } as const;
@@ -47,7 +50,7 @@ export class StudioPage {
       viewport: { width: options.width ?? 880, height: options.height ?? 560 },
       colorScheme: options.dark ? 'dark' : 'light',
       reducedMotion: options.motion ?? 'reduce',
-      deviceScaleFactor: options.coarse ? 0.5 : 1,
+      deviceScaleFactor: options.sharp ? 1 : coarse,
       ...(options.locale ? { locale: options.locale } : {}),
       ...(options.touch ? { isMobile: true, hasTouch: true } : {}),
     });
