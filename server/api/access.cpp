@@ -7,14 +7,15 @@
 namespace semblante::api {
 namespace {
 
-/// "localhost:8080" -> "localhost", "[::1]:8080" -> "::1"; nullopt if the text is not a host with an optional port,
-/// such as "localhost:80@example.org".
+/// "localhost:8080" -> "localhost", "[::1]:8080" -> "::1", "localhost." -> "localhost" (the root of DNS); nullopt if
+/// the text is not a host with an optional port, such as "localhost:80@example.org".
 std::optional<std::string> host_of(std::string_view authority) {
   const bool bracketed = !authority.empty() && authority.front() == '[';
   const auto end = bracketed ? authority.find(']') : authority.find(':');
   if (bracketed && end == std::string_view::npos) return std::nullopt;
-  const auto host = bracketed ? authority.substr(1, end - 1) : authority.substr(0, end);
+  auto host = bracketed ? authority.substr(1, end - 1) : authority.substr(0, end);
   auto port = authority.substr(std::min(authority.size(), bracketed ? end + 1 : host.size()));
+  if (!bracketed && host.ends_with('.')) host.remove_suffix(1);
   if (!port.empty() && port.front() != ':') return std::nullopt;
   if (!port.empty()) port.remove_prefix(1);
   const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };

@@ -14,11 +14,12 @@ http::Request with(const std::string& field, const std::string& value) {
 TEST(Access, ThisMachinesNames_AreItsHosts) {
   const Access access;
   EXPECT_FALSE(access.refuse_reading(http::Request{})) << "HTTP/1.0 has no Host";
-  for (const auto* host : {"localhost", "LocalHost:8080", "127.0.0.1:80", "127.8.8.8", "[::1]", "[::1]:8080"})
+  for (const auto* host : {"localhost", "LocalHost:8080", "localhost.", "localhost.:8080", "127.0.0.1:80", "127.8.8.8",
+                           "[::1]", "[::1]:8080"})
     EXPECT_FALSE(access.refuse_reading(with("Host", host))) << host;
-  for (const auto* host : {"", "evil.example", "localhost.evil.example:8080", "127.0.0.1.evil.example", "192.168.0.7",
-                           "[::2]", "[::1", "::1", "localhost, evil.example", "evil@localhost",
-                           "localhost:80@evil.example", "localhost:80x", "[::1]x", "local host"}) {
+  for (const auto* host : {"", ".", "localhost..", "evil.example", "localhost.evil.example:8080",
+                           "127.0.0.1.evil.example", "192.168.0.7", "[::2]", "[::1", "::1", "localhost, evil.example",
+                           "evil@localhost", "localhost:80@evil.example", "localhost:80x", "[::1]x", "local host"}) {
     const auto problem = access.refuse_reading(with("Host", host));
     ASSERT_TRUE(problem) << host;
     EXPECT_EQ(problem->slug, "foreign-host");
@@ -28,6 +29,7 @@ TEST(Access, ThisMachinesNames_AreItsHosts) {
 TEST(Access, NamedHosts_AreTakenWithAnyPort) {
   const Access access{{"studio.example"}, {}};
   EXPECT_FALSE(access.refuse_reading(with("Host", "Studio.example:8443")));
+  EXPECT_FALSE(access.refuse_reading(with("Host", "studio.example.")));
   EXPECT_TRUE(access.refuse_reading(with("Host", "other.example")));
   const Access open{{"*"}, {}};
   EXPECT_FALSE(open.refuse_reading(with("Host", "other.example")));
