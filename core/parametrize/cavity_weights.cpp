@@ -14,6 +14,7 @@
 
 #include "core/anatomy/smooth_step.h"
 #include "core/geometry/nearest_point.h"
+#include "core/parametrize/greatest_weights.h"
 
 namespace semblante {
 namespace {
@@ -47,11 +48,10 @@ constexpr float over_relaxation = 1.6F;
 /// The unknown rows and the equations between them.
 class Diffusion {
  public:
-  Diffusion(const Surface& surface, const Cavity& cavity, double unit,
-            const std::function<WeightRow(SurfaceVertexId)>& row_of)
+  Diffusion(const Surface& surface, const Cavity& cavity, double unit, const RowOfVertex& row_of)
       : surface_(surface), cavity_(cavity), unit_(unit) {
     find_links();
-    find_own_rows(row_of);
+    find_goals();
     find_columns(row_of);
     start(row_of);
   }
@@ -83,6 +83,13 @@ class Diffusion {
     float weight;  ///< 1 / length^2
   };
 
+  /// What a member follows far from the rim.
+  struct Goal {
+    std::size_t begin, end;  ///< of in_front_, the skin in front of it
+    double share_of_each;
+    double jaw;
+  };
+
   /// Rows 0 to #members - 1 are the members'; those of the rim follow.
   void find_links() {
     std::map<SurfaceVertexId, std::uint32_t> rim;
@@ -104,33 +111,30 @@ class Diffusion {
 
   /// What each member of the mouth would follow far from the rim: the skin in front of it, if that is near, and the
   /// jaw.
-  void find_own_rows(const std::function<WeightRow(SurfaceVertexId)>& row_of) {
-    own_rows_.assign(cavity_.members.size(), WeightRow{});
+  void find_goals() {
     if (!cavity_.is_mouth) return;
-    const std::size_t jaw = parse_feature_point("2.1")->value();
     const auto [skin, vertices] = skin_around();
     std::optional<NearestPoint> nearest;
     if (!skin.empty()) nearest.emplace(skin);
-    for (std::size_t m = 0; m < own_rows_.size(); ++m) {
-      const glm::dvec3& p = surface_.positions[cavity_.members[m].value()];
+    for (const SurfaceVertexId member : cavity_.members) {
+      const glm::dvec3& p = surface_.positions[member.value()];
       const glm::dvec3 from_corners = (p - cavity_.middle) / unit_;
-      WeightRow& row = own_rows_[m];
-      double share = 0.0;
+      Goal goal{in_front_.size(), in_front_.size(), 0.0, jaw_share_in_mouth(from_corners)};
       if (nearest && nearest->has_within(p, flesh.thick * unit_)) {
         // On the middle of a symmetric head the skin on both sides is as near.
         const std::vector<std::uint32_t> ties = nearest->nearest_with_ties(p);
         const double distance = glm::distance(p, skin[ties.front()]);
         const double up = smooth_step(flesh.below, flesh.above, from_corners.y);
-        share = (1.0 - smooth_step(flesh.thin, flesh.thick, distance / unit_)) *
-                (up * flesh.upper + (1.0 - up) * flesh.lower);
-        for (const std::uint32_t tie : ties) {
-          const WeightRow in_front = row_of(vertices[tie]);
-          for (std::size_t id = 0; id < row.size(); ++id) {
-            row[id] += share * in_front[id] / static_cast<double>(ties.size());
-          }
+        const double share = (1.0 - smooth_step(flesh.thin, flesh.thick, distance / unit_)) *
+                             (up * flesh.upper + (1.0 - up) * flesh.lower);
+        goal.share_of_each = share / static_cast<double>(ties.size());
+        goal.jaw *= 1.0 - share;
+        if (share > 0.0) {
+          for (const std::uint32_t tie : ties) in_front_.push_back(vertices[tie]);
         }
+        goal.end = in_front_.size();
       }
-      row[jaw] += (1.0 - share) * jaw_share_in_mouth(from_corners);
+      goals_.push_back(goal);
     }
   }
 
@@ -156,17 +160,28 @@ class Diffusion {
   }
 
   /// The points that any row can have: those of the rim and of the skin in front, and the jaw's.
-  void find_columns(const std::function<WeightRow(SurfaceVertexId)>& row_of) {
+  void find_columns(const RowOfVertex& row_of) {
     std::array<bool, feature_point_count> used{};
     const auto use = [&](const WeightRow& row) {
       for (std::size_t id = 0; id < row.size(); ++id) used[id] = used[id] || row[id] > 0.0;
     };
     for (const SurfaceVertexId v : rim_) use(row_of(v));
-    for (const WeightRow& row : own_rows_) use(row);
+    for (const SurfaceVertexId v : in_front_) use(row_of(v));
+    if (cavity_.is_mouth) used[jaw_point()] = true;
     for (std::size_t id = 0; id < used.size(); ++id) {
       if (used[id]) ids_.push_back(id);
     }
     blocks_ = (ids_.size() + columns - 1) / columns;
+  }
+
+  [[nodiscard]] WeightRow row_of_goal(const Goal& goal, const RowOfVertex& row_of) const {
+    WeightRow row{};
+    for (std::size_t k = goal.begin; k < goal.end; ++k) {
+      const WeightRow& in_front = row_of(in_front_[k]);
+      for (const std::size_t id : ids_) row[id] += goal.share_of_each * in_front[id];
+    }
+    row[jaw_point()] += goal.jaw;
+    return row;
   }
 
   void read_row(const WeightRow& row, std::size_t at, std::vector<Block>& rows) const {
@@ -175,13 +190,13 @@ class Diffusion {
   }
 
   /// The rim's rows, and in each member that of the rim's vertex it is nearest to, faded by the distance.
-  void start(const std::function<WeightRow(SurfaceVertexId)>& row_of) {
+  void start(const RowOfVertex& row_of) {
     const std::size_t members = cavity_.members.size();
     rows_.assign((members + rim_.size()) * blocks_, Block(0.0F));
     own_.assign(members * blocks_, Block(0.0F));
     sums_.resize(blocks_);
     for (std::size_t r = 0; r < rim_.size(); ++r) read_row(row_of(rim_[r]), members + r, rows_);
-    for (std::size_t m = 0; m < members; ++m) read_row(own_rows_[m], m, own_);
+    for (std::size_t m = 0; m < goals_.size(); ++m) read_row(row_of_goal(goals_[m], row_of), m, own_);
     distance_.assign(members, std::numeric_limits<double>::infinity());
     std::vector<std::uint32_t> from(members);
     using Entry = std::pair<double, std::uint32_t>;
@@ -242,6 +257,7 @@ class Diffusion {
   [[nodiscard]] std::span<const Link> links_of(std::uint32_t m) const {
     return std::span(links_).subspan(link_offsets_[m], link_offsets_[m + 1] - link_offsets_[m]);
   }
+  static std::size_t jaw_point() { return parse_feature_point("2.1")->value(); }
   /// Edges of length zero occur; in ES0.
   static constexpr double shortest_link = 1e-3;
 
@@ -251,31 +267,34 @@ class Diffusion {
   std::vector<SurfaceVertexId> rim_;
   std::vector<Link> links_;
   std::vector<std::uint32_t> link_offsets_;
-  std::vector<std::size_t> ids_;      ///< of the columns
-  std::size_t blocks_ = 0;            ///< of a row
-  std::vector<WeightRow> own_rows_;   ///< of the members
+  std::vector<std::size_t> ids_;  ///< of the columns
+  std::size_t blocks_ = 0;        ///< of a row
+  std::vector<Goal> goals_;       ///< of the members of a mouth
+  std::vector<SurfaceVertexId> in_front_;
   std::vector<double> distance_;      ///< of the members from the rim
   std::vector<float> pull_;           ///< of the members, towards their own rows
   std::vector<Block> rows_;           ///< members and rim
-  std::vector<Block> own_;            ///< own_rows_, by columns
+  std::vector<Block> own_;            ///< what the members follow far from the rim
   std::vector<std::uint32_t> order_;  ///< members, from the rim inwards
   std::vector<Block> sums_;
 };
 
 }  // namespace
 
-std::vector<WeightRow> cavity_rows(const Surface& surface, const Cavity& cavity, double unit,
-                                   const std::function<WeightRow(SurfaceVertexId)>& row_of) {
+WeightTable<double> cavity_rows(const Surface& surface, const Cavity& cavity, double unit, const RowOfVertex& row_of) {
   Diffusion diffusion(surface, cavity, unit, row_of);
   diffusion.solve();
-  std::vector<WeightRow> rows;
+  WeightTable<double> rows;
+  std::vector<std::size_t> order;
   for (std::size_t m = 0; m < cavity.members.size(); ++m) {
-    WeightRow& row = rows.emplace_back(diffusion.row(m));
-    const double depth = diffusion.depth(m);
-    if (!cavity.is_mouth || depth >= lip) continue;
-    const double share = smooth_step(0.0, lip, depth);
-    const WeightRow in_front = row_of(cavity.members[m]);
-    for (std::size_t id = 0; id < row.size(); ++id) row[id] = share * row[id] + (1.0 - share) * in_front[id];
+    WeightRow row = diffusion.row(m);
+    if (const double depth = diffusion.depth(m); cavity.is_mouth && depth < lip) {
+      const double share = smooth_step(0.0, lip, depth);
+      const WeightRow& in_front = row_of(cavity.members[m]);
+      for (std::size_t id = 0; id < row.size(); ++id) row[id] = share * row[id] + (1.0 - share) * in_front[id];
+    }
+    keep_greatest(row, order);
+    push_row(rows, row);
   }
   return rows;
 }

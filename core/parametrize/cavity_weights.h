@@ -1,14 +1,15 @@
 #pragma once
 
 #include <functional>
-#include <span>
-#include <vector>
 
 #include "core/anatomy/cavities.h"
 #include "core/geometry/surface.h"
 #include "core/parametrize/weight_row.h"
+#include "core/types/weight_table.h"
 
 namespace semblante {
+
+using RowOfVertex = std::function<const WeightRow&(SurfaceVertexId)>;
 
 /// The shares of the points in the members of a cavity, in their order.
 ///
@@ -18,8 +19,8 @@ namespace semblante {
 /// as jaw_share_in_mouth says. They are the solution of (Laplacian of w) = (w - own row) / length^2 on the graph of
 /// edges, so they are not negative and their sums are at most one.
 ///
-/// `row_of`: the row of a vertex outside the cavity. `unit`: ES0 in model units.
-std::vector<WeightRow> cavity_rows(const Surface& surface, const Cavity& cavity, double unit,
-                                   const std::function<WeightRow(SurfaceVertexId)>& row_of);
+/// `row_of`: the row of a vertex without cavities; the same reference for each question about a vertex. `unit`: ES0 in
+/// model units. Rows have at most `max_smooth_influences` points.
+WeightTable<double> cavity_rows(const Surface& surface, const Cavity& cavity, double unit, const RowOfVertex& row_of);
 
 }  // namespace semblante

@@ -128,11 +128,7 @@ class PartFit {
     const std::span<const double> wanted = std::span(wanted_).subspan((member - first_) * count_, count_);
     fitted_ = smooth_row_;
     RowProblem{wanted, smooth_row_, ridges_}.solve(all_, fitted_, slope_);
-    const WeightRow row = row_of(fitted_, freedom_[member]);
-    for (std::size_t id = 0; id < row.size(); ++id) {
-      if (row[id] >= least_weight) result_.rows.push(FeaturePointId(static_cast<std::uint8_t>(id)), row[id]);
-    }
-    result_.rows.end_row();
+    push_row(result_.rows, row_of(fitted_, freedom_[member]));
     if (!is_sampled) return;
     for (std::size_t s = 0; s < known_shapes_.size(); ++s) leave_out(s, member, wanted);
   }

@@ -33,4 +33,11 @@ void keep_greatest(WeightRow& weights, std::vector<std::size_t>& order) {
   }
 }
 
+void push_row(WeightTable<double>& table, const WeightRow& weights) {
+  for (std::size_t id = 0; id < weights.size(); ++id) {
+    if (weights[id] >= least_weight) table.push(FeaturePointId(static_cast<std::uint8_t>(id)), weights[id]);
+  }
+  table.end_row();
+}
+
 }  // namespace semblante

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/parametrize/weight_row.h"
+#include "core/types/weight_table.h"
 
 namespace semblante {
 
@@ -17,5 +18,8 @@ inline constexpr double least_weight = 1e-4;
 /// no choice is continuous: then the greatest are kept unchanged, among equal ones those of lower ids. `order`:
 /// scratch.
 void keep_greatest(WeightRow& weights, std::vector<std::size_t>& order);
+
+/// Ends the table with a row of these weights, without those below `least_weight`.
+void push_row(WeightTable<double>& table, const WeightRow& weights);
 
 }  // namespace semblante

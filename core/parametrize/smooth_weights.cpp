@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
 #include <numeric>
 
 #include <glm/geometric.hpp>
@@ -122,8 +123,13 @@ WeightTable<double> smooth_part_weights(const Surface& surface, const PointDista
   // Rows of the cavities continue those of their rims.
   const PartId part = surface.part_of[distances.members.front().value()];
   const std::vector<Cavity> cavities = cavities_with_target(surface, part, distances.points);
-  std::vector<const Row*> in_cavity(distances.members.size(), nullptr);
-  std::vector<std::vector<Row>> cavity_rows_of(cavities.size());
+  constexpr std::uint32_t none = 0xFFFFFFFFU;
+  struct CavityRow {
+    std::uint32_t cavity = none;
+    std::uint32_t row = none;
+  };
+  std::vector<CavityRow> in_cavity(distances.members.size());
+  std::vector<WeightTable<double>> cavity_rows_of;
   WeightPrior::Places places;
   for (const SurfacePoint& point : distances.points)
     places[point.id.value()] = {point.vertex.value(), point.position / unit};
@@ -142,37 +148,35 @@ WeightTable<double> smooth_part_weights(const Surface& surface, const PointDista
     return row;
   };
   // Cavities ask for the same rows again and again: those of the rim and of the skin in front.
-  constexpr std::uint32_t not_kept = 0xFFFFFFFFU;
-  std::vector<std::uint32_t> kept_at(distances.members.size(), not_kept);
-  std::vector<Row> kept;
-  const auto kept_row = [&](SurfaceVertexId vertex) {
-    std::uint32_t& at = kept_at[member_of(distances, vertex)];
-    if (at == not_kept) {
-      at = static_cast<std::uint32_t>(kept.size());
-      kept.push_back(smooth_row(member_of(distances, vertex)));
+  std::vector<std::uint32_t> kept_at(distances.members.size(), none);
+  std::deque<Row> kept;  // its rows stay where they are
+  const auto kept_row = [&](SurfaceVertexId vertex) -> const Row& {
+    const std::size_t m = member_of(distances, vertex);
+    if (kept_at[m] == none) {
+      kept_at[m] = static_cast<std::uint32_t>(kept.size());
+      kept.push_back(smooth_row(m));
     }
-    return kept[at];
+    return kept[kept_at[m]];
   };
-  for (std::size_t c = 0; c < cavities.size(); ++c) {
-    cavity_rows_of[c] = cavity_rows(surface, cavities[c], unit, kept_row);
-    for (std::size_t k = 0; k < cavities[c].members.size(); ++k) {
-      in_cavity[member_of(distances, cavities[c].members[k])] = &cavity_rows_of[c][k];
+  for (const Cavity& cavity : cavities) {
+    const auto c = static_cast<std::uint32_t>(cavity_rows_of.size());
+    cavity_rows_of.push_back(cavity_rows(surface, cavity, unit, kept_row));
+    for (std::size_t k = 0; k < cavity.members.size(); ++k) {
+      in_cavity[member_of(distances, cavity.members[k])] = {c, static_cast<std::uint32_t>(k)};
     }
   }
 
   WeightTable<double> table;
   for (std::size_t m = 0; m < distances.members.size(); ++m) {
-    Row row;
-    if (in_cavity[m] != nullptr) {
-      row = *in_cavity[m];
-      keep_greatest(row, order);
+    if (const auto [cavity, row] = in_cavity[m]; cavity != none) {
+      const WeightTable<double>& rows = cavity_rows_of[cavity];
+      for (std::size_t k = 0; k < rows.points_of(row).size(); ++k) {
+        table.push(rows.points_of(row)[k], rows.weights_of(row)[k]);
+      }
+      table.end_row();
     } else {
-      row = kept_at[m] != not_kept ? kept[kept_at[m]] : smooth_row(m);
+      push_row(table, kept_at[m] != none ? kept[kept_at[m]] : smooth_row(m));
     }
-    for (std::size_t id = 0; id < row.size(); ++id) {
-      if (row[id] >= least_weight) table.push(FeaturePointId(static_cast<std::uint8_t>(id)), row[id]);
-    }
-    table.end_row();
   }
   return table;
 }
