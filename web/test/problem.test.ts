@@ -14,12 +14,15 @@ describe('problem documents', () => {
     expect(wordsOf({ type: 'about:blank', title: 'Bad Gateway', status: 502 })).toBe('Bad Gateway');
   });
 
-  test('Words_InPortuguese_BeginWithTheTitleByItsCode', async () => {
+  test('Words_InPortuguese_AreTheDetailOrBeginWithTheTitleByItsCode', async () => {
     vi.stubGlobal('navigator', { languages: ['pt-BR'] });
     vi.resetModules();
     const there = await import('../src/net/problem.ts');
     const title = 'O arquivo do modelo não pode ser lido';
     expect([there.titleOf(refused), there.wordsOf(refused)]).toEqual([title, `${title}: line 3: no number`]);
+    expect(there.wordsOf({ ...refused, detail: 'the file has no triangles' })).toBe('o arquivo não tem triângulos');
+    const errors = [{ pointer: '/points/2.1', detail: 'point 2.1 is given twice' }, { pointer: '/points/2.2', detail: 'another fault' }];
+    expect(there.fieldProblems({ ...refused, errors })).toEqual([{ pointer: '/points/2.1', detail: 'o ponto 2.1 foi dado duas vezes' }, errors[1]]);
     // A title of this page, or of a proxy, is not the server's.
     expect(there.wordsOf({ type: 'about:blank', title: 'Bad Gateway', status: 502, detail: 'none' })).toBe('none');
   });

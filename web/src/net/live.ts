@@ -1,7 +1,7 @@
 import { StreamClient, type FaceFrame } from '@client/index.ts';
 import type { EndReason } from '@protocol/messages.ts';
 import { MissedFrames } from './missed_frames.ts';
-import { t } from '../words/words.ts';
+import { serverWords, t } from '../words/words.ts';
 
 export interface LinkStatus {
   kind: 'off' | 'connecting' | 'open' | 'waiting' | 'ended';
@@ -35,9 +35,10 @@ function report(client: StreamClient, title: string, onStatus: (status: LinkStat
   let named = title;
   client.on('header', (header) => (named = header.title || title));
   client.on('end', ({ reason }) => (ended = endings[reason]));
-  client.on('error', (error) =>
-    onStatus({ kind: 'open', title: named, reason: error.where ? `${error.message} (${error.where})` : error.message }),
-  );
+  client.on('error', ({ message, where }) => {
+    const words = serverWords(message);
+    onStatus({ kind: 'open', title: named, reason: where ? `${words} (${where})` : words });
+  });
   client.on('state', (state) => {
     if (state === 'closed') onStatus(ended === null ? { kind: 'off' } : { kind: 'ended', title: named, reason: ended });
     else if (state === 'waiting')

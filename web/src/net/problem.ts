@@ -1,6 +1,6 @@
 import { anyFormat, formatList } from './model_formats.ts';
 import type { Problem } from './types.ts';
-import { problemTitle, t } from '../words/words.ts';
+import { problemTitle, serverWords, t } from '../words/words.ts';
 
 /** One error of a problem document; without a pointer it concerns the whole request. */
 export interface FieldProblem {
@@ -31,11 +31,12 @@ const slugOf = (problem: Problem): string => problem.type.split('/').pop() ?? ''
 /** The title of a problem in the language of the page. */
 export const titleOf = (problem: Problem): string => problemTitle(slugOf(problem)) ?? problem.title;
 
-/** What a problem says: its detail, which the server writes in English, after the title where that is in another language. */
+/** What a problem says: its detail, after the title if that alone has a translation. */
 export function wordsOf(problem: Problem): string {
   const title = titleOf(problem);
   if (problem.detail === undefined) return title;
-  return title === problem.title ? problem.detail : `${title}: ${problem.detail}`;
+  const detail = serverWords(problem.detail);
+  return title === problem.title || detail !== problem.detail ? detail : `${title}: ${detail}`;
 }
 
 /** Parses the body of an error response. Any other body is wrapped in a problem document, so callers have one case. */
@@ -60,7 +61,8 @@ function isProblem(value: unknown): value is Problem {
 
 /** The errors of a problem as (pointer, reason); a problem without pointers gives one entry without a pointer. */
 export function fieldProblems(problem: Problem): FieldProblem[] {
-  if (problem.errors && problem.errors.length > 0) return problem.errors;
+  if (problem.errors && problem.errors.length > 0)
+    return problem.errors.map((error) => ({ ...error, detail: serverWords(error.detail) }));
   const detail = wordsOf(problem);
   return [problem.pointer === undefined ? { detail } : { pointer: problem.pointer, detail }];
 }

@@ -20,7 +20,7 @@ import { Signal } from '../shared/signal.ts';
 import type { Toasts } from '../shared/toast.ts';
 import { Timeline } from './timeline.ts';
 import { TimelineModel } from './timeline_model.ts';
-import { t } from '../../words/words.ts';
+import { serverWords, t } from '../../words/words.ts';
 
 /** Plays a performance document or .fap file on this page only, without the server. */
 export class ClipPanel {
@@ -224,7 +224,7 @@ export class ClipPanel {
         this.read(true);
         this.draw();
       }),
-      fapWarnings(content.take.warnings.map(({ message }) => `${capital(message)}.`)),
+      fapWarnings(content.take.warnings.map(({ message }) => `${capital(serverWords(message))}.`)),
     ];
   }
 
@@ -268,5 +268,5 @@ function sizeOf(content: ClipFile): string {
 /** The place of an error: a JSON pointer as code, "line 3, word 2" as text. */
 function placeOf(where: string): HTMLElement | null {
   if (where === '') return null;
-  return where.startsWith('/') ? h('p', {}, t('At '), h('code', {}, where)) : h('p', {}, capital(where));
+  return where.startsWith('/') ? h('p', {}, t('At '), h('code', {}, where)) : h('p', {}, capital(serverWords(where)));
 }

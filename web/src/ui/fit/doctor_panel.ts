@@ -7,7 +7,7 @@ import type { FitModel } from './fit_model.ts';
 import { formatCount } from '../shared/format.ts';
 import { icon } from '../shared/icons.ts';
 import type { Studio } from '../shared/studio.ts';
-import { language, measureName, t } from '../../words/words.ts';
+import { language, measureName, serverWords, t } from '../../words/words.ts';
 
 export interface DoctorOptions {
   /** Whether enough points are placed for the server to make proposals. */
@@ -174,7 +174,7 @@ function remarks({ warnings = [] }: Model): HTMLElement | null {
     h(
       'ul',
       {},
-      warnings.map((text) => h('li', {}, sentence(text))),
+      warnings.map((text) => h('li', {}, sentence(serverWords(text)))),
     ),
   );
 }

@@ -3,7 +3,7 @@ import { h, replace } from '../shared/dom.ts';
 import { icon } from '../shared/icons.ts';
 import { canIdle, setIdle } from '../shared/idle.ts';
 import type { Studio } from '../shared/studio.ts';
-import { language, t } from '../../words/words.ts';
+import { language, serverWords, t } from '../../words/words.ts';
 
 const units: readonly { unit: LengthUnit; name: string }[] = [
   { unit: 'm', name: t('metres') },
@@ -117,7 +117,7 @@ export class FramePanel {
             h(
               'ul',
               {},
-              frame.reasons.map((reason) => h('li', { class: 'small' }, reason)),
+              frame.reasons.map((reason) => h('li', { class: 'small' }, serverWords(reason))),
             ),
           )
         : null,

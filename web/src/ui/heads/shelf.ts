@@ -11,7 +11,7 @@ import { icon } from '../shared/icons.ts';
 import { progressBar } from '../shared/progress_bar.ts';
 import { rove } from '../shared/roving.ts';
 import type { Activity, Studio } from '../shared/studio.ts';
-import { t } from '../../words/words.ts';
+import { serverWords, t } from '../../words/words.ts';
 
 const stateWords: Record<Model['state'], string> = {
   importing: t('Importing'),
@@ -220,7 +220,7 @@ export class Shelf {
       ),
       activity ? progressBar(activity) : null,
       selected && model.state === 'failed' && model.problem
-        ? h('p', { class: 'head-problem' }, [model.problem.pointer, wordsOf(model.problem)].filter(Boolean).join(' '))
+        ? h('p', { class: 'head-problem' }, [serverWords(model.problem.pointer ?? ''), wordsOf(model.problem)].filter(Boolean).join(' '))
         : null,
     );
   }

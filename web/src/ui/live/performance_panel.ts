@@ -13,7 +13,7 @@ import type { Toasts } from '../shared/toast.ts';
 import type { LiveModel } from './live_model.ts';
 import { capital } from '../shared/names.ts';
 import type { PerformanceModel, Refusal } from './performance_model.ts';
-import { t } from '../../words/words.ts';
+import { serverWords, t } from '../../words/words.ts';
 
 /** Plays a performance document or a .fap file into a stream, for this page and all other subscribers. */
 export class PerformancePanel {
@@ -137,7 +137,7 @@ export class PerformancePanel {
         ? h('div', { class: 'row' }, icon('film', 16), h('strong', { class: 'grow' }, script.title))
         : h('p', { class: 'muted small' }, t('A timeline of visemes, expressions, gaze and blinks, for all subscribers.')),
       script?.kind === 'fap' ? absentChoice(model.absent.value, (absent) => model.absent.set(absent)) : null,
-      fapWarnings(model.warnings.value.map((warning) => `${capital(warning)}.`)),
+      fapWarnings(model.warnings.value.map((warning) => `${capital(serverWords(warning))}.`)),
     );
   }
 
@@ -219,7 +219,7 @@ export class PerformancePanel {
           'div',
           { class: 'grow' },
           h('strong', {}, holder ?? capital(wordsOf(problem))),
-          problem.pointer ? h('p', {}, t('At '), h('code', {}, problem.pointer)) : null,
+          problem.pointer ? h('p', {}, t('At '), h('code', {}, serverWords(problem.pointer))) : null,
           excerptBox(excerpt),
           advice ? h('p', {}, advice) : null,
           holder

@@ -6,7 +6,7 @@ import { formatPercent } from '../shared/format.ts';
 import { icon } from '../shared/icons.ts';
 import type { SceneState } from '../stage/scene.ts';
 import type { Activity, ShelfState } from '../shared/studio.ts';
-import { t } from '../../words/words.ts';
+import { serverWords, t } from '../../words/words.ts';
 
 /** What the card needs beside the state of the stage. */
 export interface OverlayFacts {
@@ -76,7 +76,7 @@ function failure(problem: Problem, again: (() => void) | null): HTMLElement {
     { class: 'stage-card error', role: 'alert' },
     icon('warning', 32),
     h('h2', {}, titleOf(problem)),
-    problem.detail ? h('p', {}, problem.pointer ? [h('code', {}, problem.pointer), ' '] : null, problem.detail) : null,
+    problem.detail ? h('p', {}, problem.pointer ? [h('code', {}, serverWords(problem.pointer)), ' '] : null, serverWords(problem.detail)) : null,
     advice ? h('p', { class: 'advice' }, advice) : null,
     again ? h('button', { type: 'button', on: { click: again } }, t('Try again')) : null,
   );

@@ -1,3 +1,4 @@
+import { wordsOf } from '../../net/problem.ts';
 import type { Recording } from '../../net/types.ts';
 import { ask } from '../shared/dialog.ts';
 import { h, redraw, replace, setText } from '../shared/dom.ts';
@@ -190,14 +191,13 @@ export class RecordingsPanel {
   private drawList(recordings: readonly Recording[], clip: boolean): void {
     const { model } = this;
     if (model.problem.value) {
-      const { title, detail } = model.problem.value;
       replace(
         this.list,
         h(
           'li',
           { class: 'notice error' },
           icon('warning', 16),
-          h('div', { role: 'alert' }, h('strong', {}, capital(detail ?? title)), h('p', {}, t('Retrying every few seconds.'))),
+          h('div', { role: 'alert' }, h('strong', {}, capital(wordsOf(model.problem.value))), h('p', {}, t('Retrying every few seconds.'))),
         ),
       );
       return;

@@ -1,4 +1,6 @@
-/** The words of whatever was thrown. */
+import { serverWords } from '../../words/words.ts';
+
+/** The words of whatever was thrown; those of the libraries that the server has too are in the language of the page. */
 export function messageOf(error: unknown): string {
-  return error instanceof Error ? error.message : String(error);
+  return serverWords(error instanceof Error ? error.message : String(error));
 }

@@ -5,7 +5,7 @@ import { chooseFile } from '../shared/file_button.ts';
 import { icon } from '../shared/icons.ts';
 import { capital } from '../shared/names.ts';
 import type { Signal } from '../shared/signal.ts';
-import { t } from '../../words/words.ts';
+import { serverWords, t } from '../../words/words.ts';
 import { soundEndings } from './sound_files.ts';
 import type { MicrophoneModel } from './microphone_model.ts';
 import type { SpeakModel } from './speak_model.ts';
@@ -200,7 +200,7 @@ export class SpeakPanel {
     replace(
       this.said,
       this.drawWords(speech, timeline),
-      ...speech.warnings.map((warning) => h('p', { class: 'muted small' }, `${capital(warning)}.`)),
+      ...speech.warnings.map((warning) => h('p', { class: 'muted small' }, `${capital(serverWords(warning))}.`)),
       h(
         'div',
         { class: 'row speak-files' },
