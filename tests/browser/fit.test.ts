@@ -1,8 +1,8 @@
-import { mkdtempSync, writeFileSync } from 'node:fs';
+import { mkdtempSync, readFileSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { describe, expect, test } from 'vitest';
-import { sampleHead } from './support/paths.ts';
+import { sampleHead, samplePoints } from './support/paths.ts';
 import { patience } from './support/patience.ts';
 import { StudioPage, type Inside } from './support/studio_page.ts';
 import { browser, server, useStudio } from './support/suite.ts';
@@ -112,6 +112,41 @@ describe('fit', () => {
     await row.getByRole('combobox').selectOption({ label: 'Guess again' });
     await row.getByText('guessed').waitFor();
     expect((await read())[tongue.index]).toMatchObject({ role_by_user: false });
+    expect(studio.errors).toEqual([]);
+    await studio.close();
+  });
+
+  test('Fit_PointOnTheOtherLip_IsToldWhereTheFaceTalksAndMendedWithOnePress', async () => {
+    const { points } = JSON.parse(readFileSync(samplePoints, 'utf8')) as { points: Record<string, { vertex: number | null; position: number[] }> };
+    const [upper, lower] = [points['2.6']!.vertex, points['2.8']!.vertex];
+    const placed = Object.entries(points)
+      .filter(([id]) => id !== '2.8')
+      .map(([id, { vertex, position }]) => [id, id === '2.6' ? { vertex: lower } : vertex === null ? { position } : { vertex }] as const);
+    const head = { method: 'POST', body: readFileSync(sampleHead), headers: { 'Content-Type': 'model/gltf-binary' } };
+    const { model } = (await (await fetch(`${server.url}/v1/models?name=Lips`, head)).json()) as { model: { id: string } };
+    const address = `${server.url}/v1/models/${model.id}`;
+
+    const studio = await StudioPage.open(browser, `${server.url}/#${model.id}/points`);
+    const { page } = studio;
+    await studio.waitForState('ready');
+    const kept = await fetch(`${address}/feature-points`, { method: 'PUT', headers: { 'Content-Type': 'application/json', 'If-Match': '*' }, body: JSON.stringify({ points: Object.fromEntries(placed) }) });
+    expect(kept.status).toBe(200);
+    await page.reload();
+    await studio.waitForStage('ready');
+    await page.getByRole('button', { name: 'Make it move (parametrize)' }).first().click();
+    const notice = page.locator('.notice.errors');
+    await notice.getByText('The fit doctor found 1 error: this face moves wrongly in places, or not at all.').waitFor();
+    await page.locator('#tab-animate[aria-selected=true]').waitFor();
+    await studio.keep('errors-notice');
+    await notice.getByRole('button', { name: 'See what is wrong' }).click();
+    await page.locator('.finding[data-code="point-on-other-rim"]').waitFor();
+    await page.locator('#panel-fit .mend').waitFor();
+    await page.locator('#tab-animate').click();
+    await notice.getByRole('button', { name: 'Move point 2.6 and parametrize again' }).click();
+    await notice.waitFor({ state: 'hidden' });
+    await page.locator('#tab-animate[aria-selected=true]').waitFor();
+    const now = (await (await fetch(`${address}/feature-points`)).json()) as { points: Record<string, { vertex: number }> };
+    expect(now.points['2.6']!.vertex).toBe(upper);
     expect(studio.errors).toEqual([]);
     await studio.close();
   });

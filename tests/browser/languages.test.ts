@@ -1,3 +1,6 @@
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
 import { describe, expect, test } from 'vitest';
 import { StudioPage } from './support/studio_page.ts';
 import { browser, server, useStudio } from './support/suite.ts';
@@ -53,7 +56,7 @@ describe('languages', () => {
     });
   }
 
-  test('Language_FindingsOfAHead_AreInPortuguese', async () => {
+  test('Language_FindingsRemarksAndRefusals_AreInPortuguese', async () => {
     const odd = ['v 0 0 0', 'v 1 0 0', 'v 0 1 0', 'v 0 0 1', 'v 0 0 -1', 'v 9 9 9', 'f 1 2 3', 'f 1 2 4', 'f 1 2 5', 'f 1 3 4'].join('\n');
     const made = await fetch(`${server.url}/v1/models?name=Odd`, { method: 'POST', headers: { 'Content-Type': 'model/obj' }, body: odd });
     const { model } = (await made.json()) as { model: { id: string } };
@@ -63,6 +66,20 @@ describe('languages', () => {
     const said = await page.locator('.finding').allInnerTexts();
     expect(said.join('\n')).not.toMatch(english);
     await studio.keep('portuguese-findings');
+    // Remarks on the file, and why its axes are uncertain.
+    for (const list of ['.remarks li', '.reasons li']) {
+      await page.locator(list).first().waitFor();
+      const remarks = await page.locator(list).allInnerTexts();
+      expect(remarks.length).toBeGreaterThan(1);
+      expect(remarks.join('\n')).not.toMatch(english);
+    }
+    const folder = mkdtempSync(join(tmpdir(), 'semblante-words-'));
+    writeFileSync(join(folder, 'carta.glb'), 'Cara Ana, esta é a cabeça.');
+    await studio.drop(join(folder, 'carta.glb'));
+    const refused = page.locator('.stage-card.error');
+    await refused.getByText("não é um arquivo GLB: não começa com 'glTF'").waitFor();
+    expect(await refused.innerText()).not.toMatch(english);
+    rmSync(folder, { recursive: true });
     expect(studio.errors).toEqual([]);
     await studio.close();
   });

@@ -32,7 +32,9 @@ import { exposeInspection } from './ui/page/inspect.ts';
 import { makeLayout } from './ui/page/layout.ts';
 import { keySheetButton } from './ui/page/key_sheet.ts';
 import { languageSelect } from './ui/page/language.ts';
+import { errorsNotice } from './ui/animate/errors_notice.ts';
 import { noFaceNotice } from './ui/animate/no_face_notice.ts';
+import { mendButton } from './ui/fit/mend.ts';
 import { LevelsPanel } from './ui/animate/levels_panel.ts';
 import { LiveSound } from './ui/live/live_sound.ts';
 import { LiveCaptions } from './ui/live/live_captions.ts';
@@ -156,7 +158,7 @@ function main(root: HTMLElement, base: string, session: Session | null, theme: H
     streamSpeech.leave();
     live.leave();
   });
-  animate.element.prepend(noFaceNotice(studio), speak.element); // what everybody wants first of a head: that it talks
+  animate.element.prepend(noFaceNotice(studio), errorsNotice(studio, mendButton(studio, fit, parametrizer)), speak.element); // what everybody wants first of a head: that it talks
   animate.element.append(clip.element, new LevelsPanel(studio, fit, scene).element);
   const shelf = new Shelf(studio);
   const fitPanel = new FitPanel(studio, points, fit, parametrizer);

@@ -3,17 +3,17 @@ export type Place = readonly [x: number, y: number];
 
 /** The places of the visemes by number; 0 is silence. Those that a mouth passes between are neighbours. */
 export const visemePlaces: readonly Place[] = [
-  [0.5, 0.05], // silence
-  [0.27, 0.1], // p b m
-  [0.75, 0.12], // f v
-  [0.42, 0.31], // th
-  [0.63, 0.31], // t d
+  [0.5, 0.13], // silence
+  [0.27, 0.13], // p b m
+  [0.75, 0.14], // f v
+  [0.42, 0.34], // th
+  [0.63, 0.34], // t d
   [0.37, 0.55], // k g
   [0.07, 0.47], // ch sh
   [0.88, 0.3], // s z
   [0.57, 0.53], // n l
   [0.16, 0.29], // r
-  [0.58, 0.94], // a: car
+  [0.58, 0.87], // a: car
   [0.82, 0.74], // e: bed
   [0.93, 0.52], // i: tip
   [0.3, 0.84], // o: top

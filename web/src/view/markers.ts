@@ -1,4 +1,4 @@
-import { BufferAttribute, BufferGeometry, Color, Group, Points, ShaderMaterial, Vector3, type Camera } from 'three';
+import { BufferAttribute, BufferGeometry, Color, Group, Points, ShaderMaterial, Vector3, type Camera, type WebGLRenderer } from 'three';
 
 /** Marker styles of feature points and of the vertices of a finding. */
 export type MarkerTone = 'error' | 'warning' | 'note' | 'placed' | 'proposed' | 'changed' | 'wrong' | 'selected';
@@ -21,8 +21,8 @@ const tones: Record<MarkerTone, { color: string; size: number; ring?: true }> = 
 };
 
 /**
- * Draws feature points as discs of constant screen size: opaque where visible, faint where the head hides them (teeth,
- * tongue, back of the head).
+ * Draws feature points as discs whose size on the screen is that of their tone, smaller while they crowd on a small face: opaque where visible,
+ * faint where the head hides them (teeth, tongue, back of the head).
  */
 export class Markers {
   readonly object = new Group();
@@ -55,6 +55,7 @@ export class Markers {
     this.geometry.setAttribute('color', new BufferAttribute(colors, 3));
     this.geometry.setAttribute('size', new BufferAttribute(sizes, 1));
     this.geometry.setAttribute('ring', new BufferAttribute(rings, 1));
+    this.geometry.computeBoundingSphere();
   }
 
   of(id: string): Marker | null {
@@ -100,6 +101,25 @@ export class Markers {
 
 const projected = new Vector3();
 
+/** Fewer discs than these hide no face. */
+const leastCrowd = 20;
+/** Discs shrink to this share at most, where they are so many to so small a width that each has less room than `room`, CSS pixels. */
+const [smallest, room] = [0.6, 36];
+
+/** The share of their size that discs are drawn at: `count` of them over `width` CSS pixels. */
+export function discShare(count: number, width: number): number {
+  return count < leastCrowd ? 1 : Math.min(1, Math.max(smallest, width / Math.sqrt(count) / room));
+}
+
+/** How wide a geometry is on the screen, CSS pixels. */
+function widthOf(points: Points<BufferGeometry>, renderer: WebGLRenderer, camera: Camera): number {
+  const sphere = points.geometry.boundingSphere;
+  if (!sphere) return Infinity;
+  const depth = -projected.copy(sphere.center).applyMatrix4(points.modelViewMatrix).z;
+  const tangent = 1 / camera.projectionMatrix.elements[5]!;
+  return depth > 0 ? (sphere.radius * renderer.domElement.clientHeight) / (depth * tangent) : Infinity;
+}
+
 /**
  * Draws the points of a geometry (attributes `position`, `color`, `size`: CSS pixels, `ring`: 0 or 1) as discs: opaque where
  * visible, faint where something hides them.
@@ -108,7 +128,10 @@ export function makeDiscs(geometry: BufferGeometry): Points<BufferGeometry, Shad
   return [discMaterial(0.22, false), discMaterial(1, true)].map((material, order) => {
     const points = new Points(geometry, material);
     points.frustumCulled = false;
-    points.onBeforeRender = (renderer) => (material.uniforms['ratio']!.value = renderer.getPixelRatio());
+    points.onBeforeRender = (renderer, _, camera) => {
+      const share = discShare(geometry.getAttribute('position').count, widthOf(points, renderer, camera));
+      material.uniforms['ratio']!.value = renderer.getPixelRatio() * share;
+    };
     points.renderOrder = 10 + order;
     return points;
   });

@@ -23,7 +23,8 @@ export interface LabelledLine {
   side: 'above' | 'below' | 'beside';
 }
 
-const labelHeight = 22; // CSS pixels
+/** Sizes of the letters of a label, CSS pixels: a name alone stands on a small face and hides less of it. */
+const letters = { brief: 11, full: 13 };
 /** Thickness of the lines, as a share of the longest. */
 const thicknessShare = 0.014;
 /** Pixels of the longest line from which the labels tell the values too: on a smaller face they would cover it. */
@@ -96,7 +97,7 @@ class Label extends Sprite {
 
   /** `longest` of all lines, model units. */
   constructor({ name, value, side }: LabelledLine, place: Vector3, longest: number) {
-    const [brief, full] = [draw(name, side), draw(`${name} ${value}`, side)];
+    const [brief, full] = [draw(name, side, letters.brief), draw(`${name} ${value}`, side, letters.full)];
     super(new SpriteMaterial({ map: full.map, depthTest: false, transparent: true, sizeAttenuation: false, toneMapped: false }));
     this.brief = brief;
     this.full = full;
@@ -133,29 +134,31 @@ interface Picture {
   height: number;
 }
 
-function draw(words: string, side: LabelledLine['side']): Picture {
+function draw(words: string, side: LabelledLine['side'], size: number): Picture {
   const scale = 3; // pixels of the texture for each on the screen
   const canvas = document.createElement('canvas');
   const context = canvas.getContext('2d')!;
-  const font = (size: number): string => `600 ${size}px ui-sans-serif, system-ui, sans-serif`;
-  context.font = font(13 * scale);
+  const font = (pixels: number): string => `600 ${pixels}px ui-sans-serif, system-ui, sans-serif`;
+  context.font = font(size * scale);
   const gap = 9; // between line and label
-  const wide = Math.ceil(context.measureText(words).width / scale) + 16;
+  const high = Math.round(1.7 * size);
+  const inset = Math.round(0.6 * size);
+  const wide = Math.ceil(context.measureText(words).width / scale) + 2 * inset;
   const width = side === 'beside' ? wide + gap : wide;
-  const height = side === 'beside' ? labelHeight : labelHeight + gap;
+  const height = side === 'beside' ? high : high + gap;
   canvas.width = width * scale;
   canvas.height = height * scale;
   context.scale(scale, scale);
   context.fillStyle = ink;
   context.globalAlpha = 0.9;
   context.beginPath();
-  context.roundRect(side === 'beside' ? gap : 0, side === 'below' ? gap : 0, wide, labelHeight, labelHeight / 2);
+  context.roundRect(side === 'beside' ? gap : 0, side === 'below' ? gap : 0, wide, high, high / 2);
   context.fill();
   context.globalAlpha = 1;
   context.fillStyle = paper;
-  context.font = font(13);
+  context.font = font(size);
   context.textBaseline = 'middle';
-  context.fillText(words, (side === 'beside' ? gap : 0) + 8, (side === 'below' ? gap : 0) + labelHeight / 2 + 0.5);
+  context.fillText(words, (side === 'beside' ? gap : 0) + inset, (side === 'below' ? gap : 0) + high / 2 + 0.5);
   const map = new CanvasTexture(canvas);
   map.colorSpace = SRGBColorSpace;
   return { map, width, height };

@@ -193,4 +193,9 @@ export const portuguesePoints = {
   'Hide the part under the mouse, or at the cross': 'Oculta a parte sob o mouse ou na cruz',
   'Show all parts': 'Mostra todas as partes',
   'Confirm all': 'Confirmar todos',
+  'Move point {point} and parametrize again': 'Mover o ponto {point} e parametrizar de novo',
+  'Move {count} points and parametrize again': 'Mover {count} pontos e parametrizar de novo',
+  'See what is wrong': 'Ver o que está errado',
+  'The fit doctor found {found}: this face moves wrongly in places, or not at all.':
+    'O exame encontrou {found}: em alguns lugares este rosto se move errado, ou não se move.',
 } as const;

@@ -1,6 +1,6 @@
 /**
  * Sentences of the server in another language by their English form; `{names}` stand for what the server fills in: `numbers` for
- * digits, `parts` for another sentence of the table.
+ * digits, `parts` for another sentence of the table; no other value has a semicolon.
  */
 export type Sentences = Readonly<Record<string, string>>;
 
@@ -17,7 +17,7 @@ const escaped = (text: string): string => text.replace(/[.*+?^${}()|[\]\\]/g, '\
 
 function patternOf(english: string, text: string): Pattern {
   const pieces = english.split(/\{(\w+)\}/);
-  const source = pieces.map((piece, index) => (index % 2 === 0 ? escaped(piece) : numbers.has(piece) ? '(\\d+)' : '(.+?)')).join('');
+  const source = pieces.map((piece, index) => (index % 2 === 0 ? escaped(piece) : parts.has(piece) ? '(.+?)' : numbers.has(piece) ? '(\\d+)' : '([^;]+?)')).join('');
   return { shape: new RegExp(`^${source}$`, 's'), names: pieces.filter((_, index) => index % 2 === 1), text };
 }
 

@@ -4,6 +4,7 @@ import { h } from '../shared/dom.ts';
 import type { FindingAction } from './finding_actions.ts';
 import type { FitModel } from './fit_model.ts';
 import { FramePanel } from './frame_panel.ts';
+import { mendButton } from './mend.ts';
 import { ParametrizeBox } from '../points/parametrize_box.ts';
 import type { Parametrizer } from '../points/parametrizer.ts';
 import { PartsPanel } from './parts_panel.ts';
@@ -38,6 +39,7 @@ export class FitPanel {
       'div',
       { class: 'panel fit' },
       doctor.element,
+      mendButton(studio, fit, parametrizer),
       this.frame.element,
       this.parts.element,
       new ParametrizeBox(studio, points, parametrizer, { withSave: false }).element,

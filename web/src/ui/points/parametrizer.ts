@@ -1,9 +1,10 @@
 import { problemOf } from '../../net/problem.ts';
 import type { ParametrizationOptions } from '../../net/types.ts';
 import { countWords } from '../shared/finding_words.ts';
+import type { PlacedPoint } from '../../face/point_draft.ts';
 import type { PointsModel } from './points_model.ts';
 import { Signal } from '../shared/signal.ts';
-import { hasErrors, type Studio } from '../shared/studio.ts';
+import type { Studio } from '../shared/studio.ts';
 import { t } from '../../words/words.ts';
 
 /**
@@ -37,6 +38,12 @@ export class Parametrizer {
     this.options.set(articulation === null ? others : { ...others, articulation });
   }
 
+  /** Moves points, saves and parametrizes. */
+  async mend(places: readonly (readonly [string, PlacedPoint])[]): Promise<void> {
+    this.points.moveAll(places);
+    await this.run();
+  }
+
   async run(): Promise<void> {
     const { studio, points } = this;
     const model = studio.selected.value;
@@ -47,7 +54,7 @@ export class Parametrizer {
       const now = studio.models.value.find((one) => one.id === model.id) ?? model;
       const found = now.findings ? countWords(now.findings) : '';
       studio.toasts.say(t('{name} is ready to animate.', { name: now.name }) + (found === '' ? '' : t(' The fit doctor found {found}.', { found })));
-      if (studio.selected.value?.id === now.id) studio.tab.set(hasErrors(now) ? 'fit' : 'animate');
+      if (studio.selected.value?.id === now.id) studio.tab.set('animate'); // errors are told there too (ui/animate/errors_notice.ts)
     } catch (error) {
       points.show(error);
       if (points.problems.size > 0) studio.tab.set('points');

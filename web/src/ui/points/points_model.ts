@@ -182,6 +182,13 @@ export class PointsModel {
     this.touch();
   }
 
+  /** Moves points to given places, as one step; what else moves with them stays. */
+  moveAll(places: readonly (readonly [string, PlacedPoint])[]): void {
+    this.draft.placeAll(places);
+    for (const [id] of places) this.forgive(id);
+    this.touch();
+  }
+
   private put(id: string, point: PlacedPoint): void {
     const twin = this.twinOf(id, point);
     this.draft.placeAll(twin ? [[id, point], twin] : [[id, point]]);
