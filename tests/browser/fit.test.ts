@@ -125,13 +125,12 @@ describe('fit', () => {
     const head = { method: 'POST', body: readFileSync(sampleHead), headers: { 'Content-Type': 'model/gltf-binary' } };
     const { model } = (await (await fetch(`${server.url}/v1/models?name=Lips`, head)).json()) as { model: { id: string } };
     const address = `${server.url}/v1/models/${model.id}`;
+    await expect.poll(async () => ((await (await fetch(address)).json()) as { state: string }).state, { timeout: patience }).toBe('ready');
+    const kept = await fetch(`${address}/feature-points`, { method: 'PUT', headers: { 'Content-Type': 'application/json', 'If-Match': '*' }, body: JSON.stringify({ points: Object.fromEntries(placed) }) });
+    expect(kept.status).toBe(200);
 
     const studio = await StudioPage.open(browser, `${server.url}/#${model.id}/points`);
     const { page } = studio;
-    await studio.waitForState('ready');
-    const kept = await fetch(`${address}/feature-points`, { method: 'PUT', headers: { 'Content-Type': 'application/json', 'If-Match': '*' }, body: JSON.stringify({ points: Object.fromEntries(placed) }) });
-    expect(kept.status).toBe(200);
-    await page.reload();
     await studio.waitForStage('ready');
     await page.getByRole('button', { name: 'Make it move (parametrize)' }).first().click();
     const notice = page.locator('.notice.errors');

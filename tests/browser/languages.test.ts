@@ -60,7 +60,7 @@ describe('languages', () => {
     const odd = ['v 0 0 0', 'v 1 0 0', 'v 0 1 0', 'v 0 0 1', 'v 0 0 -1', 'v 9 9 9', 'f 1 2 3', 'f 1 2 4', 'f 1 2 5', 'f 1 3 4'].join('\n');
     const made = await fetch(`${server.url}/v1/models?name=Odd`, { method: 'POST', headers: { 'Content-Type': 'model/obj' }, body: odd });
     const { model } = (await made.json()) as { model: { id: string } };
-    const studio = await StudioPage.open(browser, `${server.url}/#${model.id}/fit`, { width: 1100, height: 700, locale: 'pt-BR' });
+    const studio = await StudioPage.open(browser, `${server.url}/#${model.id}/fit`, { width: 1100, height: 700, locale: 'pt-BR', allowed: /status of 404/ });
     const { page } = studio;
     await page.locator('.finding').nth(1).waitFor();
     const said = await page.locator('.finding').allInnerTexts();
