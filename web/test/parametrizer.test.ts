@@ -52,7 +52,7 @@ test('Mend_Places_AreMovedToBeforeTheHeadIsParametrized_AndErrorsThatStayLeadNob
     moveAll: (places: [string, unknown][]) => (draft.changes = places.length),
     save: () => Promise.resolve(done.push(`saved ${draft.changes}`) > 0),
   } as unknown as PointsModel;
-  await new Parametrizer(studio, points).mend([['2.6', { vertex: 1, position: [0, 0, 0] }]]);
+  await new Parametrizer(studio, points).mend([{ point: '2.6', vertex: 1, position: [0, 0, 0] }]);
   expect(done).toEqual(['saved 1', 'parametrized', 'Ada is ready to animate. The fit doctor found 1 error.']);
   expect(studio.tab.value).toBe('animate');
 });

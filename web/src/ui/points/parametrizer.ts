@@ -1,7 +1,6 @@
 import { problemOf } from '../../net/problem.ts';
-import type { ParametrizationOptions } from '../../net/types.ts';
+import type { Finding, ParametrizationOptions } from '../../net/types.ts';
 import { countWords } from '../shared/finding_words.ts';
-import type { PlacedPoint } from '../../face/point_draft.ts';
 import type { PointsModel } from './points_model.ts';
 import { Signal } from '../shared/signal.ts';
 import type { Studio } from '../shared/studio.ts';
@@ -38,9 +37,9 @@ export class Parametrizer {
     this.options.set(articulation === null ? others : { ...others, articulation });
   }
 
-  /** Moves points, saves and parametrizes. */
-  async mend(places: readonly (readonly [string, PlacedPoint])[]): Promise<void> {
-    this.points.moveAll(places);
+  /** Moves points to where the fit doctor would have them, saves and parametrizes. */
+  async mend(moves: readonly NonNullable<Finding['move']>[]): Promise<void> {
+    this.points.moveAll(moves.map(({ point, vertex, position }) => [point, { vertex, position }]));
     await this.run();
   }
 
