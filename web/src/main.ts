@@ -75,7 +75,7 @@ import { UnitsPanel } from './ui/units/units_panel.ts';
 import { themeButton } from './ui/page/theme.ts';
 import { takeThumbnails } from './ui/heads/thumbnails.ts';
 import { keepOffline } from '../offline/register.ts';
-import { language, t } from './words/words.ts';
+import { language, loadServerWords, t } from './words/words.ts';
 import { Toasts } from './ui/shared/toast.ts';
 
 /** Composes the page; the only module that knows all others. */
@@ -213,6 +213,7 @@ function main(root: HTMLElement, base: string, session: Session | null, theme: H
   points.imageOf = (id, of, middle) => picker.imageOf(id, of, middle);
   points.positionOf = (vertex) => scene.preview?.positionOf(vertex)?.toArray() ?? null;
   showSelected(studio, points, scene);
+  translateServer(studio, fit, scene);
   hideParts(canvas, scene, studio, hidden);
   takeThumbnails(studio, scene, shelf);
   const shown = scene.state.watch(({ kind }) => {
@@ -242,6 +243,17 @@ function makeScene(canvas: HTMLCanvasElement, api: Api): SceneView {
   return new SceneView(canvas, {
     preview: (model, signal) => api.preview(model.id, signal),
     face: (model, level, signal) => loadStageFace(sources, model.id, level, signal),
+  });
+}
+
+/** Loads the words for what the server says after the first picture, and shows them where it has said something already. */
+function translateServer(studio: Studio, fit: FitModel, scene: SceneView): void {
+  const untilPicture = scene.state.watch(({ kind }) => {
+    if (kind !== 'ready' && kind !== 'failed') return;
+    queueMicrotask(() => untilPicture());
+    void loadServerWords().then((areThere) => {
+      if (areThere) for (const signal of [scene.state, fit.report, studio.selected]) signal.notify();
+    });
   });
 }
 

@@ -18,6 +18,7 @@ describe('problem documents', () => {
     vi.stubGlobal('navigator', { languages: ['pt-BR'] });
     vi.resetModules();
     const there = await import('../src/net/problem.ts');
+    expect(await (await import('../src/words/words.ts')).loadServerWords()).toBe(true);
     const title = 'O arquivo do modelo não pode ser lido';
     expect([there.titleOf(refused), there.wordsOf(refused)]).toEqual([title, `${title}: line 3: no number`]);
     expect(there.wordsOf({ ...refused, detail: 'the file has no triangles' })).toBe('o arquivo não tem triângulos');

@@ -1,6 +1,6 @@
 import { ApiError, problemFrom, unreachable } from './problem.ts';
 import { noteAnswer } from './reach.ts';
-import { t } from '../words/words.ts';
+import { loadServerWords, t } from '../words/words.ts';
 
 export interface Answer<T> {
   value: T;
@@ -48,6 +48,7 @@ async function send(path: string, options: RequestOptions): Promise<Response> {
   noteAnswer(response);
   if (!response.ok) {
     const body = await response.text().catch(() => '');
+    await loadServerWords();
     throw new ApiError(
       problemFrom(response.status, response.statusText, response.headers.get('Content-Type') ?? '', body),
       secondsOf(response.headers.get('Retry-After')),

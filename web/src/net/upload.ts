@@ -1,5 +1,5 @@
 import { ApiError, problemFrom, unreachable } from './problem.ts';
-import { t } from '../words/words.ts';
+import { loadServerWords, t } from '../words/words.ts';
 
 /** Uploads a file with XMLHttpRequest, which, unlike fetch, reports the progress (0..1). */
 export function upload<T>(
@@ -20,7 +20,8 @@ export function upload<T>(
     request.onload = () => {
       const type = request.getResponseHeader('Content-Type') ?? '';
       if (request.status < 200 || request.status > 299) {
-        reject(new ApiError(problemFrom(request.status, request.statusText, type, request.responseText)));
+        const problem = problemFrom(request.status, request.statusText, type, request.responseText);
+        void loadServerWords().then(() => reject(new ApiError(problem)));
         return;
       }
       try {

@@ -12,7 +12,6 @@ const table: Readonly<Record<Text, string>> | null =
   language === 'pt-BR' ? (await import('./portuguese.ts')).portuguese : null;
 const problems = language === 'pt-BR' ? (await import('./portuguese_problems.ts')).portugueseProblems : null;
 const findings = language === 'pt-BR' ? await import('./portuguese_findings.ts') : null;
-const sentences = language === 'pt-BR' ? (await import('./portuguese_sentences.ts')).portugueseSentence : null;
 const standard = language === 'pt-BR' ? await import('./portuguese_names.ts') : null;
 
 /** A text in the language of the page, with its `{names}` replaced by values. */
@@ -39,6 +38,15 @@ export const visemeWords = (name: string, english: readonly string[]): readonly 
 
 /** The title of a kind of the server's problems (the end of its `type`) in the language of the page; null: it stays as the server wrote it. */
 export const problemTitle = (slug: string): string | null => problems?.[slug] ?? null;
+
+let sentences: ((english: string) => string | null) | null = null;
+
+/** Loads the translations of the server's sentences, which the first picture does not need; whether there are any. Without a network they stay in English. */
+export async function loadServerWords(): Promise<boolean> {
+  if (language !== 'pt-BR') return false;
+  sentences ??= (await import('./portuguese_sentences.ts').catch(() => null))?.portugueseSentence ?? null;
+  return sentences !== null;
+}
 
 /** A sentence of the server, as the detail of a problem or a remark on a file, in the language of the page; what has no translation stays in English. */
 export const serverWords = (english: string): string => sentences?.(english) ?? english;
