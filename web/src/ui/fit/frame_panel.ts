@@ -85,7 +85,8 @@ export class FramePanel {
   private draw(model: Model | null): void {
     const frame = model?.frame ?? null;
     this.element.hidden = frame === null;
-    const key = JSON.stringify([model?.id, frame, model?.bounds]);
+    const reasons = frame?.reasons.map(serverWords) ?? [];
+    const key = JSON.stringify([model?.id, frame, model?.bounds, reasons]);
     if (!model || !frame || key === this.drawn) return this.check();
     this.drawn = key;
     this.unit.select.value = frame.unit;
@@ -109,7 +110,7 @@ export class FramePanel {
         ),
         size === '' ? null : [h('dt', {}, t('Resulting size')), h('dd', { class: 'number' }, size)],
       ),
-      frame.reasons.length > 0
+      reasons.length > 0
         ? h(
             'details',
             { class: 'reasons', open: !frame.sure.unit || !frame.sure.axes },
@@ -117,7 +118,7 @@ export class FramePanel {
             h(
               'ul',
               {},
-              frame.reasons.map((reason) => h('li', { class: 'small' }, serverWords(reason))),
+              reasons.map((reason) => h('li', { class: 'small' }, reason)),
             ),
           )
         : null,
