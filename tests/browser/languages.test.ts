@@ -68,7 +68,7 @@ describe('languages', () => {
     await studio.keep('portuguese-findings');
     // Remarks on the file, and why its axes are uncertain.
     for (const list of ['.remarks li', '.reasons li']) {
-      await page.locator(list).first().waitFor();
+      await page.locator(list).filter({ hasText: 'eixos' }).first().waitFor();
       const remarks = await page.locator(list).allInnerTexts();
       expect(remarks.length).toBeGreaterThan(1);
       expect(remarks.join('\n')).not.toMatch(english);
