@@ -294,6 +294,121 @@ test('Package_ElementOfAFramework_TakesWhatWasSetBeforeItIsDefined_AndWhatIsTake
   });
 });
 
+/** React 18 writes `sound="false"` for `sound={false}`. */
+test('Package_ElementWithTheWordFalse_IsOffAndAsWithoutTheAttribute', async () => {
+  writeFileSync(
+    join(project, 'false.html'),
+    `<!doctype html><semblante-face stream="demo" sound="false" voice="false" captions="false"></semblante-face>
+<script type="module" src="node_modules/semblante/dist/element.js"></script>`,
+  );
+  type Switches = HTMLElement & { sound: boolean; voice: boolean; captions: boolean };
+  await moves('/false.html', server.url, async (page) => {
+    const switches = (): Promise<boolean[]> =>
+      page.evaluate(() => {
+        const { sound, voice, captions } = document.querySelector('semblante-face') as Switches;
+        return [sound, voice, captions];
+      });
+    const button = page.getByRole('button', { name: /^(Sound|Voice)/ });
+    expect(await switches()).toEqual([false, false, false]);
+    expect(await button.count()).toBe(0);
+    await page.evaluate(() => document.querySelector('semblante-face')!.setAttribute('sound', 'true'));
+    expect(await switches()).toEqual([true, false, false]);
+    await button.waitFor(); // the server has a voice
+  });
+});
+
+/** Of a region of the page, from two pictures of it: the share of pixels that the face covers, and of those that changed. */
+interface Seen {
+  covered: number;
+  changed: number;
+}
+
+/** What two pictures of a page show at these places. */
+async function compare(page: Page, places: { x: number; y: number; width: number; height: number }[], pictures: Buffer[]): Promise<Seen[]> {
+  const addresses = pictures.map((picture) => `data:image/png;base64,${picture.toString('base64')}`);
+  return page.evaluate(
+    async ([regions, sources]) => {
+      const [first, second] = await Promise.all(
+        sources.map(async (source) => {
+          const image = new Image();
+          image.src = source;
+          await image.decode();
+          const canvas = new OffscreenCanvas(image.width, image.height);
+          const context = canvas.getContext('2d')!;
+          context.drawImage(image, 0, 0);
+          return context;
+        }),
+      );
+      return regions.map(({ x, y, width, height }) => {
+        const [before, after] = [first!, second!].map((context) => context.getImageData(x, y, width, height).data);
+        let covered = 0;
+        let changed = 0;
+        for (let i = 0; i < before!.length; i += 4) {
+          const differs = (a: ArrayLike<number>, from: number, b: ArrayLike<number>): boolean =>
+            [0, 1, 2].some((channel) => Math.abs(a[from + channel]! - b[i + channel]!) > 12);
+          if (differs(before!, 0, before!)) covered += 1; // the first pixel is a corner: background
+          if (differs(before!, i, after!)) changed += 1;
+        }
+        return { covered: covered / (width * height), changed: changed / (width * height) };
+      });
+    },
+    [places, addresses] as const,
+  );
+}
+
+type Faces = NodeListOf<HTMLElement & { state: string }>;
+
+/** A browser gives a page 16 contexts of WebGL. */
+test('Package_24Faces_AreAllDrawnAndMove_AlsoAfterTheirContextsAreLost', async () => {
+  const count = 24;
+  // Others of the page's own: the browser takes contexts of faces away for them.
+  const greedy = `window.others = Array.from({ length: 16 }, () => {
+  const gl = document.createElement('canvas').getContext('webgl2');
+  gl.clear(gl.COLOR_BUFFER_BIT);
+  gl.flush();
+  return gl;
+});`;
+  writeFileSync(join(project, 'many.css'), 'body { margin: 0; display: flex; flex-wrap: wrap } semblante-face { width: 100px; height: 120px }');
+  writeFileSync(
+    join(project, 'many.html'),
+    `<!doctype html><link rel="stylesheet" href="many.css"><body>${'<semblante-face stream="demo"></semblante-face>'.repeat(count)}
+<script type="module" src="node_modules/semblante/dist/element.js"></script>`,
+  );
+  await moves('/many.html', server.url, async (page) => {
+    const places = await page.evaluate(() =>
+      [...document.querySelectorAll('semblante-face')].map((face) => {
+        const { x, y, width, height } = face.getBoundingClientRect();
+        return { x, y, width, height };
+      }),
+    );
+    const picture = (): Promise<Buffer> => page.screenshot({ timeout: patience });
+    /** A face that speaks changes at least at its mouth: until every one has, and none is blank. */
+    const allMove = async (): Promise<void> => {
+      await page.waitForFunction(() => [...(document.querySelectorAll('semblante-face') as Faces)].every(({ state }) => state === 'playing'));
+      const first = await picture();
+      const moved = new Set<number>();
+      await expect
+        .poll(
+          async () => {
+            const seen = await compare(page, places, [first, await picture()]);
+            seen.forEach(({ covered, changed }, i) => {
+              if (covered > 0.25 && changed > 0.002) moved.add(i);
+            });
+            return moved.size;
+          },
+          { timeout: patience, interval: 500 },
+        )
+        .toBe(count);
+    };
+    await allMove();
+    await page.evaluate(greedy);
+    await allMove();
+    const pictures = join(buildDir, 'screenshots');
+    mkdirSync(pictures, { recursive: true });
+    writeFileSync(join(pictures, 'many_faces.png'), await picture());
+  });
+});
+
 test('Package_PageOfAnotherOrigin_SaysInTheConsoleHowItIsAllowed', async () => {
   const face = `<semblante-face src="${server.url}" stream="demo"></semblante-face>`;
   writeFileSync(join(project, 'foreign.html'), `<!doctype html>${face}<script type="module" src="node_modules/semblante/dist/element.js"></script>`);

@@ -1,6 +1,6 @@
 import { loadDraco } from '../draco/index.ts';
 import type { Face, LoadOptions } from '../face.ts';
-import { drawableMesh } from '../gpu/drawable_mesh.ts';
+import { drawableMesh, type DrawableMesh } from '../gpu/drawable_mesh.ts';
 import { Kernel } from '../kernel.ts';
 import { Player, shownPose } from '../player.ts';
 import { Emitter } from '../emitter.ts';
@@ -52,8 +52,15 @@ const firstRetry = 1000;
 const longestRetry = 10_000;
 /** ms that the first picture waits for images that are late: the small ones, and all of a face that stands still */
 const imagePatience = 1500;
+/** ms after which a face that is not seen leaves the graphics card */
+const awayPatience = 5000;
 
-/** One face on one canvas: loads it, follows its stream, draws it, keeps the device's pace, and comes back after a loss. */
+/** Of faces that several elements of the page show. */
+const meshes = new WeakMap<Face, DrawableMesh>();
+/** Name of the page's graphics processor, once it was asked for. */
+let renderer: string | undefined;
+
+/** One face on the page: loads it, follows its stream, draws it, keeps the device's pace, and comes back after a loss. */
 export class FaceShow extends Emitter<ShowEvents> {
   state: ShowState = 'loading';
   trouble: FaceTrouble | null = null;
@@ -90,6 +97,7 @@ export class FaceShow extends Emitter<ShowEvents> {
   private second = { start: 0, frames: 0 };
   private attempts = 0;
   private retryTimer: ReturnType<typeof setTimeout> | undefined;
+  private awayTimer: ReturnType<typeof setTimeout> | undefined;
   private frameRequest = 0;
   /** Begins with the images that the first picture did not wait for. */
   private fillLarge: () => void = () => undefined;
@@ -97,20 +105,23 @@ export class FaceShow extends Emitter<ShowEvents> {
 
   /** Throws FaceTrouble where WebGL 2 is missing. */
   constructor(
-    private readonly canvas: HTMLCanvasElement,
+    private readonly stage: HTMLElement,
     private readonly options: ShowOptions,
   ) {
     super();
     this.paused = options.paused;
-    this.budget = budgetOf(thisDevice(rendererName()), options.quality);
+    this.budget = budgetOf(thisDevice((renderer ??= rendererName())), options.quality);
     this.render = this.budget.render;
     this.pace = new Pace(cheaperSteps(this.render, window.devicePixelRatio || 1));
     try {
-      this.renderer = new FaceRenderer(canvas, this.render, options.fades);
+      this.renderer = new FaceRenderer(stage, this.render, options.fades);
     } catch {
       throw trouble('no-webgl');
     }
-    this.renderer.onChange = () => this.invalidate();
+    this.renderer.onChange = () => {
+      this.invalidate();
+      this.settle();
+    };
     this.images = new Images(options.source, options.paused);
     this.link = new Link(options.source, options.sound);
     this.link.client.on('header', () => this.emit('sound', undefined));
@@ -119,17 +130,20 @@ export class FaceShow extends Emitter<ShowEvents> {
     for (const name of ['online', 'pageshow', 'focus']) window.addEventListener(name, this.check);
     document.addEventListener('visibilitychange', this.check);
     this.resized = new ResizeObserver(() => this.resize());
-    this.resized.observe(canvas);
+    this.resized.observe(stage);
     this.resize();
     this.link.open();
     void this.load();
     this.frameRequest = requestAnimationFrame(this.frame);
   }
 
-  /** Draws only while it is seen. */
+  /** Draws only while it is seen; the graphics card keeps a face a little longer. */
   setVisible(visible: boolean): void {
     this.visible = visible;
-    if (visible) this.invalidate();
+    clearTimeout(this.awayTimer);
+    if (!visible) this.awayTimer = setTimeout(() => this.renderer.setAway(true), awayPatience);
+    else this.renderer.setAway(false);
+    this.invalidate();
   }
 
   setPaused(paused: boolean): void {
@@ -210,6 +224,7 @@ export class FaceShow extends Emitter<ShowEvents> {
     this.work.abort();
     cancelAnimationFrame(this.frameRequest);
     clearTimeout(this.retryTimer);
+    clearTimeout(this.awayTimer);
     for (const name of ['online', 'pageshow', 'focus']) window.removeEventListener(name, this.check);
     document.removeEventListener('visibilitychange', this.check);
     this.resized.disconnect();
@@ -271,7 +286,8 @@ export class FaceShow extends Emitter<ShowEvents> {
 
   private show(face: Face): void {
     this.face = face;
-    const mesh = drawableMesh(face);
+    let mesh = meshes.get(face);
+    if (!mesh) meshes.set(face, (mesh = drawableMesh(face)));
     this.renderer.setFace(mesh, face.rig.materials);
     const wanted = face.rig.materials.map(({ base_color_image, normal_image }) => [base_color_image, normal_image] as const);
     const first = new Set(smallImages(face.rig.images).map(({ sha256 }) => sha256));
@@ -321,7 +337,7 @@ export class FaceShow extends Emitter<ShowEvents> {
     const state: ShowState =
       this.trouble !== null && this.face === null
         ? 'error'
-        : this.face === null
+        : this.face === null || this.renderer.isLost
           ? 'loading'
           : link.state === 'ended'
             ? 'ended'
@@ -347,7 +363,7 @@ export class FaceShow extends Emitter<ShowEvents> {
       this.dirty = false;
       this.renderer.draw(this.kernel.poses[shownPose]!, this.camera, delta);
     }
-    if (!moved) return;
+    if (!moved || this.renderer.isLost) return;
     if (!this.played) {
       this.played = true;
       this.fillLarge();
@@ -402,14 +418,10 @@ export class FaceShow extends Emitter<ShowEvents> {
   }
 
   private resize(): void {
-    const { clientWidth, clientHeight } = this.canvas;
+    const { clientWidth, clientHeight } = this.stage;
     this.camera.room = Math.min(0.4, this.roomBelow() / Math.max(1, clientHeight));
-    const ratio = this.pixelRatio;
-    const width = Math.max(1, Math.round(clientWidth * ratio));
-    const height = Math.max(1, Math.round(clientHeight * ratio));
-    if (this.canvas.width !== width) this.canvas.width = width;
-    if (this.canvas.height !== height) this.canvas.height = height;
-    this.invalidate();
+    const pixels = (length: number): number => Math.max(1, Math.round(length * this.pixelRatio));
+    this.renderer.resize(pixels(clientWidth), pixels(clientHeight));
   }
 }
 

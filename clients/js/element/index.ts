@@ -1,6 +1,7 @@
 import { SemblanteFace } from './semblante_face.ts';
 
-export { SemblanteFace, type Connection, type FaceAttributes, type FaceEventMap, type FaceState } from './semblante_face.ts';
+export type { FaceAttributes } from './attributes.ts';
+export { SemblanteFace, type Connection, type FaceEventMap, type FaceState } from './semblante_face.ts';
 export { faceWords, type FaceWords, type Trouble } from './words.ts';
 
 export const elementName = 'semblante-face';

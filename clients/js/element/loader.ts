@@ -88,8 +88,38 @@ export async function modelOf(source: Source, signal: AbortSignal): Promise<stri
   return model;
 }
 
-/** Loads the face package. `images` begin to load as soon as rig.json names them. Throws FaceTrouble. */
+/** Faces that are being loaded: others on the page that begin meanwhile get the same. */
+const loading = new Map<string, Promise<Face>>();
+
+/**
+ * Loads the face package. `images` begin to load as soon as rig.json names them. Throws FaceTrouble; what `signal` says when it is
+ * aborted.
+ */
 export async function faceOf(
+  source: Source,
+  model: string,
+  libraries: Pick<LoadOptions, 'draco' | 'runtime'>,
+  level: NonNullable<LoadOptions['level']>,
+  images: Images,
+  signal: AbortSignal,
+): Promise<Face> {
+  const key = JSON.stringify([source.base, source.token, model, level]);
+  const other = loading.get(key);
+  if (other) {
+    const face = await other.catch(() => null); // the other one may have been taken off the page
+    signal.throwIfAborted();
+    if (face) return face;
+  }
+  const face = loadFaceOf(source, model, libraries, level, images, signal);
+  loading.set(key, face);
+  try {
+    return await face;
+  } finally {
+    if (loading.get(key) === face) loading.delete(key);
+  }
+}
+
+async function loadFaceOf(
   source: Source,
   model: string,
   { draco, runtime }: Pick<LoadOptions, 'draco' | 'runtime'>,
@@ -127,6 +157,9 @@ export function firstImages<T extends { bytes: number }>(images: readonly T[], i
   return isStill ? images : smallImages(images);
 }
 
+/** Images of all faces of the page, as long as one has them, by address. */
+const shared = new Map<string, WeakRef<Promise<ImageBitmap>>>();
+
 /** Images by their hash, each fetched and decoded once; a face's levels of detail share them. */
 export class Images {
   private readonly known = new Map<string, Promise<ImageBitmap>>();
@@ -139,9 +172,15 @@ export class Images {
   get(sha256: string): Promise<ImageBitmap> {
     let image = this.known.get(sha256);
     if (!image) {
-      image = this.load(sha256);
-      image.catch(() => this.known.delete(sha256));
+      const { base, token } = this.source;
+      const key = JSON.stringify([base, token, sha256]);
+      image = shared.get(key)?.deref() ?? this.load(sha256);
+      image.catch(() => {
+        this.known.delete(sha256);
+        shared.delete(key);
+      });
       this.known.set(sha256, image);
+      shared.set(key, new WeakRef(image));
     }
     return image;
   }

@@ -1,7 +1,8 @@
 import type { CaptionsBox, Cue } from '../captions/index.ts';
-import type { Fit } from '../view/framing.ts';
-import type { QualityName } from './detail.ts';
+import type { OrbitCamera } from '../view/camera.ts';
+import { FaceAttributesElement } from './attributes.ts';
 import { FaceShow, type ShowState } from './face_show.ts';
+import { turnByFingers, turnOfKey } from './gestures.ts';
 import { expectIds, serverOf, trouble, type Source } from './loader.ts';
 import { styleText } from './style.ts';
 import { FaceTrouble, faceWords, type Trouble } from './words.ts';
@@ -11,33 +12,8 @@ export type FaceState = ShowState | 'idle';
 /** How good the connection is. */
 export type Connection = 'none' | 'good' | 'fair' | 'poor' | 'lost';
 
-const fits: readonly string[] = ['head', 'face', 'model'] satisfies Fit[];
-const qualities: readonly string[] = ['auto', 'low', 'medium', 'high'] satisfies QualityName[];
-/** What the markup of a page can say: for the types of frameworks (README.md). Undefined: not there. */
-export interface FaceAttributes {
-  src?: string | undefined;
-  stream?: string | undefined;
-  model?: string | null | undefined;
-  fit?: Fit | undefined;
-  quality?: QualityName | undefined;
-  theme?: 'auto' | 'light' | 'dark' | undefined;
-  poster?: string | undefined;
-  alt?: string | undefined;
-  orbit?: 'free' | 'none' | undefined;
-  /** The empty text: as an attribute without a value. */
-  sound?: boolean | '' | undefined;
-  voice?: boolean | '' | undefined;
-  captions?: boolean | '' | undefined;
-}
-
-/** What a page can set as properties. */
-const properties = ['src', 'stream', 'model', 'poster', 'alt', 'fit', 'quality', 'theme', 'sound', 'voice', 'captions', 'token'] as const;
 /** Loading begins this far before the element is scrolled into view. */
 const ahead = '200px';
-/** Radians for a stroke across the whole element, and for an arrow key. */
-const strokeTurn = 2.4;
-const keyTurn = 0.15;
-
 let sheet: CSSStyleSheet | null = null;
 function styles(): CSSStyleSheet {
   if (!sheet) {
@@ -46,9 +22,6 @@ function styles(): CSSStyleSheet {
   }
   return sheet;
 }
-
-// Node has no elements; a page that is rendered there can import this module all the same.
-const Base = (globalThis as { HTMLElement?: typeof HTMLElement }).HTMLElement ?? (class {} as typeof HTMLElement);
 
 /** Events of the element. */
 export interface FaceEventMap {
@@ -79,7 +52,7 @@ export interface SemblanteFace {
  * `<semblante-face src stream>`: a face that follows a stream. README.md lists attributes, properties, methods and
  * events.
  */
-export class SemblanteFace extends Base {
+export class SemblanteFace extends FaceAttributesElement {
   static readonly observedAttributes = ['src', 'stream', 'model', 'fit', 'quality', 'poster', 'alt', 'sound', 'voice', 'captions'];
 
   private show: FaceShow | null = null;
@@ -88,14 +61,14 @@ export class SemblanteFace extends Base {
   private paused_: boolean | null = null;
   private seen: IntersectionObserver | null = null;
   private inView = false;
-  private canvas: HTMLCanvasElement | null = null;
+  /** Holds what shows the face. */
+  private stage: HTMLElement | null = null;
   private readonly picture = this.make('img');
   private readonly words = this.make('p');
   private readonly wheel = this.make('i');
   private readonly playButton = this.make('button');
   private readonly soundButton = this.make('button');
   private captionsBox: CaptionsBox | null = null;
-  private fingers = new Map<number, { x: number; y: number }>();
 
   constructor() {
     super();
@@ -115,108 +88,16 @@ export class SemblanteFace extends Base {
     this.soundButton.hidden = true;
     this.soundButton.addEventListener('click', () => void this.press().catch(() => this.update()));
     root.append(this.picture, this.wheel, this.words, this.playButton, this.soundButton);
-    this.addEventListener('keydown', (event) => this.turnByKey(event));
+    this.addEventListener('keydown', (event) => {
+      const by = turnOfKey(event.key);
+      if (!by || !this.show) return;
+      event.preventDefault();
+      this.turn(by);
+    });
   }
 
   private make<Name extends keyof HTMLElementTagNameMap>(name: Name): HTMLElementTagNameMap[Name] {
     return document.createElement(name);
-  }
-
-  // ---- attributes as properties -----------------------------------------------------------------------------
-
-  /** Frameworks set null or undefined for what is not there. */
-  private put(name: string, value: string | null | undefined): void {
-    if (value === null || value === undefined) this.removeAttribute(name);
-    else this.setAttribute(name, value);
-  }
-
-  /** What was set before the element was defined lies on the object itself and hides the properties of the class. */
-  private takeEarly(): void {
-    for (const name of properties) {
-      if (!Object.hasOwn(this, name)) continue;
-      const value: unknown = Reflect.get(this, name);
-      Reflect.deleteProperty(this, name);
-      Reflect.set(this, name, value);
-    }
-  }
-
-  get src(): string {
-    return this.getAttribute('src') ?? '';
-  }
-  set src(value: string) {
-    this.put('src', value);
-  }
-  get stream(): string {
-    return this.getAttribute('stream') ?? '';
-  }
-  set stream(value: string) {
-    this.put('stream', value);
-  }
-  get model(): string | null {
-    return this.getAttribute('model');
-  }
-  set model(value: string | null) {
-    this.put('model', value);
-  }
-  get poster(): string {
-    return this.getAttribute('poster') ?? '';
-  }
-  set poster(value: string) {
-    this.put('poster', value);
-  }
-  /** Empty: the attribute is missing, and the name is that of the stream. */
-  get alt(): string {
-    return this.getAttribute('alt') ?? '';
-  }
-  set alt(value: string) {
-    this.put('alt', value);
-  }
-  get fit(): Fit {
-    const value = this.getAttribute('fit') ?? '';
-    return fits.includes(value) ? (value as Fit) : 'head';
-  }
-  set fit(value: Fit) {
-    this.put('fit', value);
-  }
-  get quality(): QualityName {
-    const value = this.getAttribute('quality') ?? '';
-    return qualities.includes(value) ? (value as QualityName) : 'auto';
-  }
-  set quality(value: QualityName) {
-    this.put('quality', value);
-  }
-  get theme(): string {
-    return this.getAttribute('theme') ?? 'auto';
-  }
-  set theme(value: string) {
-    this.put('theme', value);
-  }
-
-  /** Whether the stream's sound is asked for. A button, or `setSound`, lets it be heard: browsers demand a tap. */
-  get sound(): boolean {
-    return this.hasAttribute('sound');
-  }
-  set sound(value: boolean) {
-    this.toggleAttribute('sound', value);
-  }
-
-  /**
-   * Whether the browser's own voice may say the text of the stream, in place of its sound: an eightieth of the bytes of face and sound. A button, or
-   * `setVoice`, lets it speak. Where the browser has no voice it is as without this attribute.
-   */
-  get voice(): boolean {
-    return this.hasAttribute('voice');
-  }
-  set voice(value: boolean) {
-    this.toggleAttribute('voice', value);
-  }
-
-  /** Whether what is said is shown as words, where the server knows them. */
-  get captions(): boolean {
-    return this.hasAttribute('captions');
-  }
-  set captions(value: boolean) {
-    this.toggleAttribute('captions', value);
   }
 
   /** A token, for a server of another origin that asks for one. Write only; not an attribute, which pages show. */
@@ -304,8 +185,13 @@ export class SemblanteFace extends Base {
 
   /** Turns the camera back to the front. */
   lookFront(): void {
-    this.show?.camera.reset();
-    this.show?.invalidate();
+    this.turn((camera) => camera.reset());
+  }
+
+  private turn(by: (camera: OrbitCamera) => void): void {
+    if (!this.show) return;
+    by(this.show.camera);
+    this.show.invalidate();
   }
 
   /** Loads everything again, also after a trouble that does not pass by itself. */
@@ -349,16 +235,18 @@ export class SemblanteFace extends Base {
 
   private start(): void {
     if (this.stream === '') return;
-    const canvas = this.make('canvas');
-    this.canvas = canvas;
-    canvas.setAttribute('role', 'img');
+    const stage = this.make('div');
+    this.stage = stage;
+    stage.className = 'stage';
+    stage.setAttribute('role', 'img');
     this.name();
-    this.listen(canvas);
-    this.shadowRoot!.insertBefore(canvas, this.picture);
+    turnByFingers(stage, () => this.getAttribute('orbit') !== 'none', (by) => this.turn(by));
+    stage.addEventListener('dblclick', () => this.lookFront());
+    this.shadowRoot!.insertBefore(stage, this.picture);
     try {
       expectIds(this.stream, this.model);
       const source: Source = { base: serverOf(this.src, document.baseURI), stream: this.stream, model: this.model, token: this.secret };
-      const show = new FaceShow(canvas, {
+      const show = new FaceShow(stage, {
         source,
         fit: this.fit,
         quality: this.quality,
@@ -377,7 +265,7 @@ export class SemblanteFace extends Base {
         if (cause && show.face === null) this.tell('error', { code: cause.code, message: cause.message });
       });
       show.on('ready', () => {
-        canvas.classList.add('shown');
+        stage.classList.add('shown');
         this.picture.classList.add('gone');
         this.update();
         this.tell('ready');
@@ -420,8 +308,8 @@ export class SemblanteFace extends Base {
     this.show?.close();
     this.show = null;
     this.failed = null;
-    this.canvas?.remove(); // a canvas whose context was given back gives no other
-    this.canvas = null;
+    this.stage?.remove();
+    this.stage = null;
     this.name();
     this.setPoster();
   }
@@ -448,7 +336,7 @@ export class SemblanteFace extends Base {
     this.words.className = alone ? 'alone' : '';
     this.playButton.hidden = !(this.paused && (state === 'resting' || state === 'playing'));
     this.updateSound();
-    if (alone) this.canvas?.classList.remove('shown');
+    if (alone) this.stage?.classList.remove('shown');
     this.tell('statechange', { state, message: this.message });
   }
 
@@ -471,52 +359,13 @@ export class SemblanteFace extends Base {
   /** The accessible name belongs to the picture; messages and the button beside it are read for themselves. */
   private name(): void {
     const label = this.getAttribute('alt') ?? faceWords.face(this.stream);
-    this.canvas?.setAttribute('aria-label', label);
-    this.picture.alt = this.canvas ? '' : label;
+    this.stage?.setAttribute('aria-label', label);
+    this.picture.alt = this.stage ? '' : label;
   }
 
   private setPoster(): void {
     this.picture.classList.toggle('gone', this.poster === '');
     if (this.poster !== '') this.picture.src = this.poster;
-  }
-
-  /** One finger turns the head, two change the distance; a double tap looks from the front. */
-  private listen(canvas: HTMLCanvasElement): void {
-    const { fingers } = this;
-    canvas.addEventListener('pointerdown', (event) => {
-      if (this.getAttribute('orbit') === 'none') return;
-      fingers.set(event.pointerId, { x: event.clientX, y: event.clientY });
-      canvas.setPointerCapture(event.pointerId);
-    });
-    canvas.addEventListener('pointermove', (event) => {
-      const from = fingers.get(event.pointerId);
-      const { show } = this;
-      if (!from || !show) return;
-      const to = { x: event.clientX, y: event.clientY };
-      const size = Math.max(1, Math.min(canvas.clientWidth, canvas.clientHeight));
-      const other = [...fingers].find(([id]) => id !== event.pointerId)?.[1];
-      if (other) {
-        const before = Math.hypot(from.x - other.x, from.y - other.y);
-        show.camera.zoom(before / Math.max(1, Math.hypot(to.x - other.x, to.y - other.y)));
-      } else {
-        show.camera.orbit(((from.x - to.x) / size) * strokeTurn, ((to.y - from.y) / size) * strokeTurn);
-      }
-      fingers.set(event.pointerId, to);
-      show.invalidate();
-    });
-    for (const name of ['pointerup', 'pointercancel', 'lostpointercapture'] as const)
-      canvas.addEventListener(name, (event) => fingers.delete(event.pointerId));
-    canvas.addEventListener('dblclick', () => this.lookFront());
-  }
-
-  private turnByKey(event: KeyboardEvent): void {
-    const by = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
-    const { show } = this;
-    if (!show || (!by && event.key !== 'Home')) return;
-    event.preventDefault();
-    if (by) show.camera.orbit(by[0]! * keyTurn, by[1]! * keyTurn);
-    else show.camera.reset();
-    show.invalidate();
   }
 }
 

@@ -11,14 +11,14 @@ export const styleText = `
 :host([theme='light']) { color-scheme: light; }
 :host([theme='dark']) { color-scheme: dark; }
 :host([hidden]) { display: none; }
-:host(:is([sound], [voice])) { --semblante-captions-room: 68px; }
+:host(:is([sound]:not([sound='false']), [voice]:not([voice='false']))) { --semblante-captions-room: 68px; }
 :host(:focus-visible) { outline: 3px solid Highlight; outline-offset: -3px; }
-canvas, img { position: absolute; inset: 0; width: 100%; height: 100%; display: block; }
-canvas { touch-action: pan-y; opacity: 0; transition: opacity 0.25s; cursor: grab; }
-:host([orbit='free']) canvas { touch-action: none; }
-:host([orbit='none']) canvas { touch-action: auto; cursor: auto; }
-canvas.shown { opacity: 1; }
-canvas:active { cursor: grabbing; }
+div.stage, canvas, img { position: absolute; inset: 0; width: 100%; height: 100%; display: block; }
+div.stage { touch-action: pan-y; opacity: 0; transition: opacity 0.25s; cursor: grab; }
+:host([orbit='free']) .stage { touch-action: none; }
+:host([orbit='none']) .stage { touch-action: auto; cursor: auto; }
+div.stage.shown { opacity: 1; }
+div.stage:active { cursor: grabbing; }
 img { object-fit: cover; }
 img.gone { display: none; }
 p {
@@ -34,11 +34,11 @@ button {
 }
 button[hidden] { display: none; }
 button.sound { left: 12px; translate: none; padding: 0 1.1em; font-size: 14px; }
-@container (max-width: 559px) { :host(:is([sound], [voice])) button:not(.sound) { bottom: calc(68px + env(safe-area-inset-bottom)); } }
+@container (max-width: 559px) { :host(:is([sound]:not([sound='false']), [voice]:not([voice='false']))) button:not(.sound) { bottom: calc(68px + env(safe-area-inset-bottom)); } }
 button:disabled { opacity: 0.7; cursor: default; }
 i { position: absolute; left: 50%; top: 50%; width: 34px; height: 34px; margin: -17px; border-radius: 50%;
   border: 3px solid color-mix(in srgb, currentColor 25%, transparent); border-top-color: currentColor; animation: turn 0.9s linear infinite; }
 i[hidden] { display: none; }
 @keyframes turn { to { rotate: 1turn; } }
-@media (prefers-reduced-motion: reduce) { i { animation-duration: 6s; } canvas { transition: none; } }
+@media (prefers-reduced-motion: reduce) { i { animation-duration: 6s; } div.stage { transition: none; } }
 `;

@@ -2,12 +2,13 @@ import type { RigMaterial } from '../../../protocol/ts/rig_document.ts';
 import type { DrawableMesh } from '../gpu/drawable_mesh.ts';
 import { entryTexels, rowNumbers, tableWidth } from '../gpu/deform_shader.ts';
 import { bareSkinColor, isSkinLike, mostMetalness, skinLook, skinRoughness, studioLight, whiteLevel } from '../gpu/studio_look.ts';
-import { makeTangentTable } from '../gpu/tangent_table.ts';
+import { makeTangentTable, type TangentTable } from '../gpu/tangent_table.ts';
 import { ballPlaces, lidFields, type Pose } from '../kernel.ts';
 import { sunMatrix, unit, type OrbitCamera, type Vec3 } from './camera.ts';
-import { makeEnvironment, type Environment } from './environment.ts';
-import { alphaTestOfBlend, faceFragment, faceVertex, shadowFragment, shadowVertex } from './face_shader.ts';
-import { linear, makeProgram, scaled, uniformsOf } from './gl.ts';
+import type { Environment } from './environment.ts';
+import { alphaTestOfBlend } from './face_shader.ts';
+import { linear, scaled } from './gl.ts';
+import { graphicsFor, type Graphics, type GraphicsUser } from './graphics.ts';
 
 /** What a device can do at once. */
 export interface RenderQuality {
@@ -29,12 +30,13 @@ interface Images {
 
 interface Loaded {
   mesh: DrawableMesh;
+  table: TangentTable;
   materials: readonly RigMaterial[];
   bitmaps: (readonly [ImageBitmap | null, ImageBitmap | null])[];
 }
 
-type Program = { program: WebGLProgram; at: Record<string, WebGLUniformLocation> };
-
+/** Of meshes that several faces of the page have. */
+const tables = new WeakMap<DrawableMesh, TangentTable>();
 /** Seconds in which the colours of an image replace the plain colour. */
 const fadeTime = 0.35;
 
@@ -42,16 +44,12 @@ const fadeTime = 0.35;
  * Draws one face with WebGL 2 and nothing else: deformation on the GPU, the studio's light and skin, one shadow. After a
  * lost graphics context everything is made again.
  */
-export class FaceRenderer {
-  /** Called when the picture must be drawn again for another reason than the pose. */
+export class FaceRenderer implements GraphicsUser {
+  /** Called when the picture must be drawn again for another reason than the pose, and when `isLost` changes. */
   onChange: () => void = () => undefined;
-
-  private readonly gl: WebGL2RenderingContext;
-  private environment!: Environment;
-  private program!: Program;
-  private shadowProgram!: Program;
-  private shadow: { target: WebGLFramebuffer; map: WebGLTexture; size: number } | null = null;
-  private white!: WebGLTexture;
+  /** Shows the picture. Another one replaces it when its context does not come back. */
+  private canvas = document.createElement('canvas');
+  private graphics: Graphics;
   private loaded: Loaded | null = null;
   private images: Images[] = [];
   private vertices: WebGLVertexArrayObject | null = null;
@@ -59,36 +57,66 @@ export class FaceRenderer {
   private entries: WebGLTexture | null = null;
   private readonly lids = new Float32Array(2 * ballPlaces);
   private fading = false;
+  private isAway = false;
 
-  /** Throws when the browser gives no WebGL 2. */
+  /** The canvas becomes a child of `host`. Throws when the browser gives no WebGL 2. */
   constructor(
-    readonly canvas: HTMLCanvasElement,
+    host: HTMLElement,
     private quality: RenderQuality,
     private readonly fades: boolean,
   ) {
-    const gl = canvas.getContext('webgl2', {
-      alpha: true,
-      antialias: quality.antialias,
-      premultipliedAlpha: true,
-      powerPreference: 'high-performance',
-    });
-    if (!gl) throw new Error('WebGL 2 is not available');
-    this.gl = gl;
-    canvas.addEventListener('webglcontextlost', this.onLost);
-    canvas.addEventListener('webglcontextrestored', this.onRestored);
-    this.start();
+    this.graphics = graphicsFor(this.canvas, quality.antialias);
+    this.graphics.add(this);
+    if (!this.isLost) this.graphics.environment(quality.roomSize); // before the face is there: it takes a while
+    host.append(this.canvas);
   }
 
-  private readonly onLost = (event: Event): void => event.preventDefault(); // lets the browser give it back
-  private readonly onRestored = (): void => {
-    this.start();
-    const { loaded } = this;
-    if (loaded) {
-      this.setFace(loaded.mesh, loaded.materials);
-      loaded.bitmaps.forEach(([base, normal], i) => this.setImages(i, base, normal));
-    }
+  private get gl(): WebGL2RenderingContext {
+    return this.graphics.gl;
+  }
+
+  /** Whether nothing can be drawn at present. */
+  get isLost(): boolean {
+    return this.graphics.isLost;
+  }
+
+  lost(): void {
     this.onChange();
-  };
+  }
+
+  restored(): void {
+    this.vertices = this.entries = null;
+    this.buffers = [];
+    this.images = [];
+    this.upload();
+  }
+
+  moved(next: Graphics): void {
+    this.graphics.remove(this);
+    this.graphics = next;
+    next.add(this);
+    const { width, height } = this.canvas;
+    const canvas = document.createElement('canvas');
+    this.canvas.replaceWith(canvas);
+    this.canvas = canvas;
+    this.resize(width, height);
+    if (!next.isLost) this.restored();
+  }
+
+  /** While it is away the face keeps nothing in the context. */
+  setAway(isAway: boolean): void {
+    if (isAway === this.isAway) return;
+    this.isAway = isAway;
+    if (isAway) this.releaseFace();
+    else if (!this.isLost) this.upload();
+  }
+
+  /** Pixels. */
+  resize(width: number, height: number): void {
+    if (this.canvas.width !== width) this.canvas.width = width;
+    if (this.canvas.height !== height) this.canvas.height = height;
+    this.onChange();
+  }
 
   /** Turns shadow and rich skin off on a slow device; smoothed edges belong to the context and stay. */
   setQuality(quality: RenderQuality): void {
@@ -96,33 +124,20 @@ export class FaceRenderer {
     this.onChange();
   }
 
-  private start(): void {
-    const { gl } = this;
-    this.shadow = null;
-    this.vertices = this.entries = null;
-    this.buffers = [];
-    this.images = [];
-    this.program = this.make(faceVertex, faceFragment);
-    this.shadowProgram = this.make(shadowVertex, shadowFragment);
-    this.environment = makeEnvironment(gl, this.quality.roomSize);
-    this.white = gl.createTexture();
-    gl.bindTexture(gl.TEXTURE_2D, this.white);
-    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA8, 1, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4).fill(255));
-  }
-
-  private make(vertex: string, fragment: string): Program {
-    const program = makeProgram(this.gl, vertex, fragment);
-    return { program, at: uniformsOf(this.gl, program) };
-  }
-
   /** Replaces the face. Images of materials with the same content stay with the caller: give them again. */
   setFace(mesh: DrawableMesh, materials: readonly RigMaterial[]): void {
-    const { gl } = this;
     this.releaseFace();
-    const table = makeTangentTable(mesh);
-    this.loaded = { mesh, materials, bitmaps: materials.map(() => [null, null] as const) };
-    this.images = materials.map(() => ({ base: null, normal: null, share: 0 }));
+    let table = tables.get(mesh);
+    if (!table) tables.set(mesh, (table = makeTangentTable(mesh)));
+    this.loaded = { mesh, table, materials, bitmaps: materials.map(() => [null, null] as const) };
+    if (!this.isLost && !this.isAway) this.upload();
+  }
 
+  /** Brings the face and its images into the context, which has nothing of it. */
+  private upload(): void {
+    if (!this.loaded) return;
+    const { gl } = this;
+    const { mesh, table, materials, bitmaps } = this.loaded;
     this.entries = gl.createTexture();
     gl.bindTexture(gl.TEXTURE_2D, this.entries);
     const texels = entryTexels(table);
@@ -134,27 +149,30 @@ export class FaceRenderer {
     this.vertices = gl.createVertexArray();
     gl.bindVertexArray(this.vertices);
     const rowsOfVertices = rowNumbers(mesh, table);
-    for (const { program } of [this.program, this.shadowProgram]) {
+    for (const { program } of [this.graphics.program, this.graphics.shadowProgram]) {
       this.attribute(program, 'position', mesh.positions, 3);
       this.attribute(program, 'normal', mesh.normals, 3);
       if (mesh.uvs) this.attribute(program, 'uv', mesh.uvs, 2);
       this.attribute(program, 'faceRow', rowsOfVertices, 2);
     }
-    this.upload(gl.ELEMENT_ARRAY_BUFFER, mesh.indices);
+    this.fill(gl.ELEMENT_ARRAY_BUFFER, mesh.indices);
     gl.bindVertexArray(null);
+    this.images = materials.map(() => ({ base: null, normal: null, share: 1 }));
+    bitmaps.forEach((_, i) => this.uploadImages(i));
+    this.onChange();
   }
 
   private attribute(program: WebGLProgram, name: string, values: Float32Array | Uint32Array, size: number): void {
     const { gl } = this;
     const at = gl.getAttribLocation(program, name);
     if (at < 0) return;
-    this.upload(gl.ARRAY_BUFFER, values);
+    this.fill(gl.ARRAY_BUFFER, values);
     gl.enableVertexAttribArray(at);
     if (values instanceof Uint32Array) gl.vertexAttribIPointer(at, size, gl.UNSIGNED_INT, 0, 0);
     else gl.vertexAttribPointer(at, size, gl.FLOAT, false, 0, 0);
   }
 
-  private upload(target: number, values: Float32Array | Uint32Array): void {
+  private fill(target: number, values: Float32Array | Uint32Array): void {
     const buffer = this.gl.createBuffer();
     this.gl.bindBuffer(target, buffer);
     this.gl.bufferData(target, values, this.gl.STATIC_DRAW);
@@ -163,26 +181,25 @@ export class FaceRenderer {
 
   /** Sets the images of a material when they have arrived; null: it has none. */
   setImages(material: number, base: ImageBitmap | null, normal: ImageBitmap | null): void {
-    const images = this.images[material];
-    if (!images || !this.loaded) return;
+    if (!this.loaded) return;
     this.loaded.bitmaps[material] = [base, normal];
-    images.base = base && this.texture(base, this.gl.SRGB8_ALPHA8);
-    images.normal = normal && this.texture(normal, this.gl.RGBA8);
+    this.uploadImages(material);
+    const images = this.images[material];
+    if (!images) return;
     images.share = this.fades ? 0 : 1;
     this.fading = this.fades;
     this.onChange();
   }
 
-  private texture(bitmap: ImageBitmap, format: number): WebGLTexture {
-    const { gl } = this;
-    const texture = gl.createTexture();
-    gl.bindTexture(gl.TEXTURE_2D, texture);
-    gl.texImage2D(gl.TEXTURE_2D, 0, format, gl.RGBA, gl.UNSIGNED_BYTE, bitmap);
-    gl.generateMipmap(gl.TEXTURE_2D);
-    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR_MIPMAP_LINEAR);
-    const finer = gl.getExtension('EXT_texture_filter_anisotropic');
-    if (finer) gl.texParameteri(gl.TEXTURE_2D, finer.TEXTURE_MAX_ANISOTROPY_EXT, 4);
-    return texture;
+  private uploadImages(material: number): void {
+    const images = this.images[material];
+    const [base, normal] = this.loaded!.bitmaps[material]!;
+    if (!images) return;
+    const { graphics, gl } = this;
+    const before = [images.base, images.normal];
+    images.base = base && graphics.texture(base, gl.SRGB8_ALPHA8);
+    images.normal = normal && graphics.texture(normal, gl.RGBA8);
+    for (const texture of before) graphics.dropTexture(texture);
   }
 
   /** Whether the next picture differs even if the pose does not. */
@@ -192,8 +209,8 @@ export class FaceRenderer {
 
   /** Draws a pose. The canvas must have its size in pixels. `deltaSeconds`: since the last picture, for the fading. */
   draw(pose: Pose, camera: OrbitCamera, deltaSeconds: number): void {
-    const { gl, loaded, vertices } = this;
-    if (!loaded || !vertices || gl.isContextLost()) return;
+    const { gl, loaded, vertices, graphics } = this;
+    if (!loaded || !vertices || this.isLost) return;
     this.fading = false;
     for (const images of this.images) {
       if (images.base && images.share < 1) images.share = Math.min(1, images.share + deltaSeconds / fadeTime);
@@ -208,6 +225,8 @@ export class FaceRenderer {
     const sun = at(key.place);
     const sunCamera = sunMatrix(sun, centre, radius * shadow.reach, radius * shadow.near, radius * shadow.far);
 
+    const light = graphics.environment(this.quality.roomSize);
+    graphics.begin(this.canvas);
     gl.bindVertexArray(vertices);
     gl.activeTexture(gl.TEXTURE0);
     gl.bindTexture(gl.TEXTURE_2D, this.entries);
@@ -220,10 +239,10 @@ export class FaceRenderer {
     gl.viewport(0, 0, width, height);
     gl.clearColor(0, 0, 0, 0);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
-    const { program, at: uniform } = this.program;
+    const { program, at: uniform } = graphics.program;
     gl.useProgram(program);
     this.setPose(uniform, pose);
-    this.setLight(uniform, camera, sunCamera, radius, at);
+    this.setLight(uniform, camera, light, sunCamera, radius, at);
     for (const blended of [false, true]) {
       gl.depthMask(!blended);
       if (blended) {
@@ -239,19 +258,20 @@ export class FaceRenderer {
     }
     gl.depthMask(true);
     gl.bindVertexArray(null);
+    graphics.end(this.canvas);
   }
 
   private drawShadow(pose: Pose, mesh: DrawableMesh, sunCamera: Float32Array): void {
     const { gl } = this;
     const { size } = studioLight.shadow;
-    if (this.shadow?.size !== size) this.shadow = this.makeShadow(size);
+    const { target } = this.graphics.shadowMap(size);
     // The map must not be bound for reading while it is drawn.
     gl.activeTexture(gl.TEXTURE5);
     gl.bindTexture(gl.TEXTURE_2D, null);
-    gl.bindFramebuffer(gl.FRAMEBUFFER, this.shadow.target);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, target);
     gl.viewport(0, 0, size, size);
     gl.clear(gl.DEPTH_BUFFER_BIT);
-    const { program, at } = this.shadowProgram;
+    const { program, at } = this.graphics.shadowProgram;
     gl.useProgram(program);
     this.setPose(at, pose);
     gl.uniformMatrix4fv(at['camera'] ?? null, false, sunCamera);
@@ -261,25 +281,10 @@ export class FaceRenderer {
     }
   }
 
-  private makeShadow(size: number): { target: WebGLFramebuffer; map: WebGLTexture; size: number } {
-    const { gl } = this;
-    gl.activeTexture(gl.TEXTURE5);
-    const map = gl.createTexture();
-    gl.bindTexture(gl.TEXTURE_2D, map);
-    gl.texStorage2D(gl.TEXTURE_2D, 1, gl.DEPTH_COMPONENT24, size, size);
-    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR);
-    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_COMPARE_MODE, gl.COMPARE_REF_TO_TEXTURE);
-    const target = gl.createFramebuffer();
-    gl.bindFramebuffer(gl.FRAMEBUFFER, target);
-    gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.DEPTH_ATTACHMENT, gl.TEXTURE_2D, map, 0);
-    gl.bindFramebuffer(gl.FRAMEBUFFER, null);
-    gl.activeTexture(gl.TEXTURE0);
-    return { target, map, size };
-  }
-
   private setLight(
     uniform: Record<string, WebGLUniformLocation>,
     camera: OrbitCamera,
+    { radiance, irradiance }: Environment,
     sunCamera: Float32Array,
     radius: number,
     at: (place: readonly number[]) => Vec3,
@@ -307,14 +312,13 @@ export class FaceRenderer {
     gl.uniform3fv(set('sheenColor'), scaled(linear(skinLook.sheenColor), skinLook.sheen));
     const units = ['faceEntries', 'baseMap', 'normalMap', 'radiance', 'irradiance', 'shadowMap'];
     units.forEach((name, i) => gl.uniform1i(set(name), i));
+    const { map } = this.graphics.shadowMap(quality.shadows ? shadow.size : 1);
     gl.activeTexture(gl.TEXTURE3);
-    gl.bindTexture(gl.TEXTURE_CUBE_MAP, this.environment.radiance);
+    gl.bindTexture(gl.TEXTURE_CUBE_MAP, radiance);
     gl.activeTexture(gl.TEXTURE4);
-    gl.bindTexture(gl.TEXTURE_CUBE_MAP, this.environment.irradiance);
+    gl.bindTexture(gl.TEXTURE_CUBE_MAP, irradiance);
     gl.activeTexture(gl.TEXTURE5);
-    this.shadow ??= this.makeShadow(quality.shadows ? shadow.size : 1);
-    gl.activeTexture(gl.TEXTURE5);
-    gl.bindTexture(gl.TEXTURE_2D, this.shadow.map);
+    gl.bindTexture(gl.TEXTURE_2D, map);
   }
 
   private setMaterial(uniform: Record<string, WebGLUniformLocation>, facts: RigMaterial, images: Images): void {
@@ -337,9 +341,9 @@ export class FaceRenderer {
     gl.uniform1i(set('isSkin'), isSkin ? 1 : 0);
     gl.uniform1i(set('hasNormalMap'), images.normal ? 1 : 0);
     gl.activeTexture(gl.TEXTURE1);
-    gl.bindTexture(gl.TEXTURE_2D, images.base ?? this.white);
+    gl.bindTexture(gl.TEXTURE_2D, images.base ?? this.graphics.white);
     gl.activeTexture(gl.TEXTURE2);
-    gl.bindTexture(gl.TEXTURE_2D, images.normal ?? this.white);
+    gl.bindTexture(gl.TEXTURE_2D, images.normal ?? this.graphics.white);
   }
 
   private setPose(uniform: Record<string, WebGLUniformLocation>, pose: Pose): void {
@@ -375,10 +379,7 @@ export class FaceRenderer {
   private releaseFace(): void {
     const { gl } = this;
     for (const buffer of this.buffers) gl.deleteBuffer(buffer);
-    for (const { base, normal } of this.images) {
-      gl.deleteTexture(base);
-      gl.deleteTexture(normal);
-    }
+    for (const { base, normal } of this.images) for (const texture of [base, normal]) this.graphics.dropTexture(texture);
     gl.deleteVertexArray(this.vertices);
     gl.deleteTexture(this.entries);
     this.buffers = [];
@@ -386,12 +387,9 @@ export class FaceRenderer {
     this.vertices = this.entries = null;
   }
 
-  /** Gives the graphics context back. */
   dispose(): void {
-    this.canvas.removeEventListener('webglcontextlost', this.onLost);
-    this.canvas.removeEventListener('webglcontextrestored', this.onRestored);
     this.releaseFace();
     this.loaded = null;
-    this.gl.getExtension('WEBGL_lose_context')?.loseContext();
+    this.graphics.remove(this);
   }
 }
