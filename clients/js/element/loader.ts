@@ -104,11 +104,15 @@ export async function faceOf(
   signal: AbortSignal,
 ): Promise<Face> {
   const key = JSON.stringify([source.base, source.token, model, level]);
-  const other = loading.get(key);
-  if (other) {
-    const face = await other.catch(() => null); // the other one may have been taken off the page
-    signal.throwIfAborted();
-    if (face) return face;
+  for (let other = loading.get(key); other; other = loading.get(key)) {
+    try {
+      const face = await other;
+      signal.throwIfAborted();
+      return face;
+    } catch (error) {
+      signal.throwIfAborted();
+      if (error instanceof FaceTrouble) throw error; // else the other face was taken off the page
+    }
   }
   const face = loadFaceOf(source, model, libraries, level, images, signal);
   loading.set(key, face);

@@ -2,7 +2,7 @@ import { afterEach, expect, test, vi } from 'vitest';
 import type { RigDocument, Vec3 } from '../../../../protocol/ts/index.ts';
 import { budgetOf, cheaperSteps, firstVertices, type Device } from '../../../../clients/js/element/detail.ts';
 import { fewerPixels, Pace } from '../../../../clients/js/view/pace.ts';
-import { expectIds, modelOf, serverOf } from '../../../../clients/js/element/loader.ts';
+import { expectIds, faceOf, Images, modelOf, serverOf } from '../../../../clients/js/element/loader.ts';
 import { FaceTrouble, isPassing } from '../../../../clients/js/element/words.ts';
 import { OrbitCamera } from '../../../../clients/js/view/camera.ts';
 import { frameOf } from '../../../../clients/js/view/framing.ts';
@@ -152,16 +152,59 @@ test('expectIds_HalfACharacter_IsNoId', () => {
 });
 
 test('modelOf_AnIdThatNoStreamHas_IsAbsent_NotAFaultOfTheServer', async () => {
-  const source = { base: 'https://faces.example', stream: 'a/../b', model: null, token: null };
   const codes = new Map<number, string>();
   for (const status of [400, 404, 414, 431, 401, 403, 429, 500, 503]) {
     vi.stubGlobal('fetch', async () => new Response('{}', { status }));
-    const trouble = await modelOf(source, new AbortController().signal).catch((error: unknown) => error);
+    const trouble = await modelOf({ ...source, stream: 'a/../b' }, new AbortController().signal).catch((error: unknown) => error);
     codes.set(status, (trouble as FaceTrouble).code);
   }
   for (const status of [400, 404, 414, 431]) expect(codes.get(status), `${status}`).toBe('no-stream');
   for (const status of [401, 403]) expect(codes.get(status), `${status}`).toBe('private');
   for (const status of [429, 500, 503]) expect(codes.get(status), `${status}`).toBe('server');
+});
+
+const source = { base: 'https://faces.example', stream: 'demo', model: null, token: null };
+
+test('Images_OfFacesOfOnePage_AreFetchedOnce_AndAgainAfterAFailure', async () => {
+  const asked: string[] = [];
+  let status = 503;
+  vi.stubGlobal('createImageBitmap', async () => ({}));
+  vi.stubGlobal('fetch', async (address: string) => {
+    asked.push(address);
+    return new Response('x', { status });
+  });
+  const [one, other, ofAnotherServer] = [source, source, { ...source, base: 'https://other.example' }].map((from) => new Images(from, false));
+  await expect(one!.get('a1')).rejects.toThrow('503');
+  status = 200;
+  const first = await one!.get('a1');
+  expect(await other!.get('a1')).toBe(first);
+  expect(await ofAnotherServer!.get('a1')).not.toBe(first);
+  const address = '/v1/artefacts/a1';
+  expect(asked).toEqual([source.base + address, source.base + address, `https://other.example${address}`]);
+});
+
+test('faceOf_SeveralAtOnce_IsOneRequest_AndAnotherWhenTheFirstIsTakenOffThePage', async () => {
+  const answers: ((status: number) => void)[] = [];
+  vi.stubGlobal('fetch', (_: string, { signal }: { signal: AbortSignal }) =>
+    new Promise((resolve, reject) => {
+      answers.push((status) => resolve(new Response('{}', { status })));
+      signal.addEventListener('abort', () => reject(signal.reason as Error));
+    }),
+  );
+  const never = new Promise<never>(() => undefined);
+  const load = (signal: AbortSignal): Promise<unknown> =>
+    faceOf(source, 'ana', { draco: never, runtime: never }, { lod: 0 }, new Images(source, false), signal).catch((error: unknown) => error);
+  const [gone, stays] = [new AbortController(), new AbortController()];
+  const [first, second, third] = [load(gone.signal), load(stays.signal), load(stays.signal)];
+  const once = answers.length;
+  expect(once).toBeGreaterThan(0);
+  gone.abort();
+  expect((await first) as Error).toHaveProperty('name', 'AbortError');
+  await vi.waitFor(() => expect(answers.length).toBe(2 * once));
+  for (const answer of answers) answer(404);
+  expect(((await second) as FaceTrouble).code).toBe('model-unready');
+  expect(((await third) as FaceTrouble).code).toBe('model-unready');
+  expect(answers.length).toBe(2 * once);
 });
 
 afterEach(() => {
