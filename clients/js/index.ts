@@ -3,6 +3,7 @@ export * from './face_error.ts';
 export type { DracoModule, FaceMesh } from './draco_mesh.ts';
 export * from './kernel.ts';
 export * from './stream_client.ts';
+export * from './stream_types.ts';
 export * from './stream_clock.ts';
 export * from './stream_memory.ts';
 export * from './player.ts';

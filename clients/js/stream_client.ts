@@ -1,128 +1,16 @@
-import { neutralFrame, type TimedFrame } from '../../protocol/ts/face_frame.ts';
-import {
-  binarySubprotocol,
-  limits,
-  protocolVersion,
-  type End,
-  type EndReason,
-  type Frames,
-  type Header,
-  type Keyframe,
-  type SoundCodec,
-  type StreamError,
-  type StreamErrorCode,
-  type StreamRole,
-  type VoiceState,
-} from '../../protocol/ts/messages.ts';
+import type { TimedFrame } from '../../protocol/ts/face_frame.ts';
+import { binarySubprotocol, limits, type Header, type VoiceState } from '../../protocol/ts/messages.ts';
 import { ProtocolError } from '../../protocol/ts/protocol_error.ts';
 import { standardQuantizers, type QuantizerSteps } from '../../protocol/ts/quantizers.ts';
 import { Emitter } from './emitter.ts';
-import { readFrame, writeFrame } from './frames.ts';
-import type { UnpackText } from './speech/library.ts';
-import {
-  errorLayout,
-  eventLayout,
-  headerLayout,
-  streamOptionsLayout,
-  timedFrameLayout,
-} from './generated/layouts.ts';
+import { writeFrame } from './frames.ts';
+import { streamOptionsLayout, timedFrameLayout } from './generated/layouts.ts';
 import { Runtime } from './runtime.ts';
+import type { UnpackText } from './speech/library.ts';
 import { StreamClock } from './stream_clock.ts';
+import { eventType, readClock, readCloseCode, readEnd, readFault, readFrames, readHeader, readRefusal, readSound, readState, readText, readType } from './stream_events.ts';
 import { StreamMemory } from './stream_memory.ts';
-
-export type ConnectionState = 'connecting' | 'open' | 'waiting' | 'closed';
-
-export interface StreamEvents {
-  /** connecting, open (header received), waiting (to reconnect), closed (permanently) */
-  state: ConnectionState;
-  header: Header;
-  keyframe: Keyframe;
-  frames: Frames;
-  end: End;
-  /** The server refused a message of this client. */
-  error: StreamError;
-  /** A message of the server could not be read, or it does not answer. A new connection follows. */
-  fault: ProtocolError;
-  clock: ClockSample;
-  /** A packet of the sound, if it was asked for. */
-  sound: SoundPacket;
-  /** A sentence for the client's own voice or for captions, if it was asked for. */
-  text: SpokenText;
-  /** A message of any kind was received. */
-  message: void;
-}
-
-/** A packet of the header's codec. Times in ms. */
-export interface SoundPacket {
-  /** When it begins to be heard, on the clock of the frames. */
-  mediaTime: number;
-  duration: number;
-  packet: Uint8Array<ArrayBuffer>;
-}
-
-/** A sentence of a speech. Times in ms. */
-export interface SpokenText {
-  /** Its number within the epoch. */
-  speech: number;
-  /** When its first word begins, on the clock of the frames. */
-  mediaTime: number;
-  /** Of a voice of the client's own: as the server estimates it. */
-  duration: number;
-  /** BCP 47; empty: unknown. */
-  language: string;
-  /** Empty: what is being said stops at `mediaTime`, and what waits is not said. */
-  text: string;
-  /** What the mouth does when: section 2.2 of SPEC.md. */
-  score: Uint8Array<ArrayBuffer>;
-}
-
-/** One measurement of the server's clock. Times in ms. */
-export interface ClockSample {
-  roundTrip: number;
-  /** Server's wall clock minus the client's clock (`now()`). */
-  offset: number;
-  /** Media time of the stream when the pong arrived, by the clock estimate. */
-  mediaTime: number;
-}
-
-/** What a client uses of a WebSocket: browsers' have it, and those of packages for Node. */
-export interface ClientSocket {
-  binaryType: string;
-  readonly bufferedAmount: number;
-  onopen: ((event: never) => unknown) | null;
-  onclose: ((event: never) => unknown) | null;
-  onerror: ((event: never) => unknown) | null;
-  onmessage: ((event: never) => unknown) | null;
-  send(bytes: Uint8Array<ArrayBuffer>): void;
-  close(code?: number): void;
-}
-
-export interface StreamOptions {
-  role?: StreamRole;
-  /** For a publisher: replace the current publisher. Default false. */
-  takeOver?: boolean;
-  /** For a subscriber: ask for the sound of the stream too; for a publisher: it sends sound (`publishSound`). Default false. */
-  sound?: boolean;
-  /** For a subscriber with a voice of its own: text in place of the frames and the sound of speech. Default false. */
-  text?: boolean;
-  /** For a subscriber that shows what is said: text beside the frames and the sound of speech. Default false. */
-  captions?: boolean;
-  /**
-   * For a server that asks for tokens, from a page that is not its own: sent as a subprotocol, because a browser's
-   * WebSocket carries no header.
-   */
-  token?: string;
-  /** Default: the platform's WebSocket. Node 18 to 20 have none: pass the class of a package, such as `ws`. */
-  WebSocket?: new (url: string, protocols: string[]) => ClientSocket;
-  /** ms; default performance.now() */
-  now?: () => number;
-  /** First and longest pause before a reconnection, ms. Default 250 and 10000; each attempt doubles the pause. */
-  backoff?: { first: number; longest: number };
-  /**
-   * Maximum time between pings, ms; 0: no pings. Default 5000. Shorter after connecting and when round trips jitter.
-   */
-  pingInterval?: number;
-}
+import type { ClientSocket, ConnectionState, StreamEvents, StreamOptions } from './stream_types.ts';
 
 /** The subprotocol that carries a token; the server does not say it back. */
 const bearerSubprotocol = 'semblante.bearer.';
@@ -130,45 +18,10 @@ const bearerSubprotocol = 'semblante.bearer.';
 /** When the socket has more buffered bytes than this, a publisher's frames are dropped instead of queued. */
 const maxBufferedBytes = 256 * 1024;
 
-// The enumerations of semblante.h, in order.
-const states: readonly ConnectionState[] = ['closed', 'connecting', 'open', 'waiting'];
-const endReasons: readonly EndReason[] = ['other', 'finished', 'deleted', 'shutdown', 'replaced', 'slow'];
-const voiceStates: readonly VoiceState[] = ['reached', 'ended', 'failed', 'ready'];
-const soundCodecs: readonly SoundCodec[] = ['other', 'opus'];
-const refusals: readonly StreamErrorCode[] = [
-  'other',
-  'malformed',
-  'truncated',
-  'out_of_range',
-  'not_finite',
-  'too_large',
-  'unsupported',
-  'mismatch',
-  'missing',
-  'invalid_argument',
-  'not_found',
-  'conflict',
-  'throttled',
-  'unauthorized',
-  'internal',
-];
-/** semblante_result as the nearest code of the protocol */
-const faults: readonly StreamErrorCode[] = [
-  'other',
-  'invalid_argument',
-  'malformed',
-  'unsupported',
-  'mismatch',
-  'too_large',
-  'too_large',
-  'internal',
-  'internal',
-  'other',
-];
 /** First byte of a `text` in its packed form. */
 const packedTextType = 13;
-const eventType = { state: 1, connect: 2, close: 3, header: 4, keyframe: 5, frames: 6, clock: 7, refused: 8, fault: 9, end: 10, sound: 11, text: 12 } as const;
-const resumed = 1;
+/** The enumeration of semblante.h, in order. */
+const voiceStates: readonly VoiceState[] = ['reached', 'ended', 'failed', 'ready'];
 const ok = 0;
 
 /** "http://host:8080", "demo" -> "ws://host:8080/v1/streams/demo" */
@@ -378,18 +231,16 @@ export class StreamClient extends Emitter<StreamEvents> {
   }
 
   private handle(memory: StreamMemory): void {
-    const { runtime, event } = memory;
-    const { view } = runtime;
-    const type = view.getUint32(event + eventLayout.type, true);
+    const type = readType(memory);
     switch (type) {
       case eventType.state:
-        return this.become(states[view.getUint32(event + eventLayout.state, true)]!);
+        return this.become(readState(memory));
       case eventType.connect:
         return this.open();
       case eventType.close: {
         const { socket } = this;
         this.socket = null;
-        return socket?.close(view.getUint32(event + eventLayout.code, true));
+        return socket?.close(readCloseCode(memory));
       }
       case eventType.header:
         return this.takeHeader(memory);
@@ -397,31 +248,35 @@ export class StreamClient extends Emitter<StreamEvents> {
       case eventType.frames:
         return this.takeFrames(memory, type === eventType.keyframe);
       case eventType.sound:
-        return this.takeSound(memory);
+        return this.emit('sound', readSound(memory));
       case eventType.text:
-        return this.takeText(memory);
+        return this.emit('text', readText(memory));
       case eventType.clock:
-        return this.emit('clock', {
-          roundTrip: view.getFloat64(event + eventLayout.round_trip, true),
-          offset: view.getFloat64(event + eventLayout.server_offset, true),
-          mediaTime: view.getFloat64(event + eventLayout.media_time, true),
-        });
+        return this.emit('clock', readClock(memory));
       case eventType.refused:
-      case eventType.fault: {
-        const code = view.getUint32(event + eventLayout.code, true);
-        const where = runtime.text(event + eventLayout.error + errorLayout.where);
-        const message = runtime.text(event + eventLayout.error + errorLayout.message);
-        if (type === eventType.fault) {
-          return this.emit('fault', new ProtocolError(faults[code] ?? 'other', where, message));
-        }
-        return this.emit('error', { type: 'error', code: refusals[code] ?? 'other', where, message });
-      }
+        return this.emit('error', readRefusal(memory));
+      case eventType.fault:
+        return this.emit('fault', readFault(memory));
       case eventType.end:
-        return this.emit('end', {
-          type: 'end',
-          reason: endReasons[view.getUint32(event + eventLayout.code, true)] ?? 'other',
-        });
+        return this.emit('end', readEnd(memory));
     }
+  }
+
+  private takeHeader(memory: StreamMemory): void {
+    const read = readHeader(memory);
+    if (!read) return;
+    this.steps = read.steps;
+    this.header = read.header;
+    this.emit('header', read.header);
+  }
+
+  private takeFrames(memory: StreamMemory, isKeyframe: boolean): void {
+    if (!this.has(isKeyframe ? 'keyframe' : 'frames')) return; // a player reads them in the library
+    const read = readFrames(memory, this.steps);
+    if (!read) return;
+    const { frames, ...of } = read;
+    if (isKeyframe) this.emit('keyframe', { type: 'keyframe', ...of, state: frames[0]!.state });
+    else this.emit('frames', { type: 'frames', ...of, frames });
   }
 
   private become(state: ConnectionState): void {
@@ -491,83 +346,6 @@ export class StreamClient extends Emitter<StreamEvents> {
     memory.runtime.functions.semblante_stream_receive(memory.stream, at, bytes.length, this.options.now());
     if (this.has('message')) this.emit('message', undefined);
     this.act();
-  }
-
-  private takeHeader({ runtime, stream, header }: StreamMemory): void {
-    if (runtime.functions.semblante_stream_header(stream, header) !== ok) return;
-    const { view } = runtime;
-    const real = (member: number): number => view.getFloat64(header + member, true);
-    const text = (member: number): string => runtime.text(view.getUint32(header + member, true));
-    const share = real(headerLayout.viseme_share);
-    const count = (member: number): number => view.getUint32(header + member, true);
-    const quantizer = view.getUint32(header + headerLayout.quantizer, true);
-    this.steps = standardQuantizers.map((_, fap) => (fap < 3 ? 1 : view.getFloat64(quantizer + fap * 8, true)));
-    this.header = {
-      type: 'header',
-      version: protocolVersion,
-      stream: text(headerLayout.stream),
-      title: text(headerLayout.title),
-      model: text(headerLayout.model),
-      epoch: runtime.wide(header + headerLayout.epoch),
-      sequence: runtime.wide(header + headerLayout.sequence),
-      media_time: real(headerLayout.media_time),
-      server_time: real(headerLayout.server_time),
-      fps_hint: real(headerLayout.frame_rate),
-      batch_interval: real(headerLayout.batch_interval),
-      quantizers: Array.from(this.steps.subarray(3)),
-      recovered: view.getUint32(header + headerLayout.resumed, true) === resumed,
-      viseme_share: Number.isNaN(share) ? null : share,
-      sound:
-        count(headerLayout.sound_rate) === 0
-          ? null
-          : {
-              codec: soundCodecs[count(headerLayout.sound_codec)] ?? 'other',
-              rate: count(headerLayout.sound_rate),
-              channels: count(headerLayout.sound_channels),
-              bitrate: count(headerLayout.sound_bitrate),
-            },
-    };
-    this.emit('header', this.header);
-  }
-
-  private takeSound({ runtime, event }: StreamMemory): void {
-    const { view } = runtime;
-    const at = view.getUint32(event + eventLayout.packet, true);
-    this.emit('sound', {
-      mediaTime: view.getFloat64(event + eventLayout.media_time, true),
-      duration: view.getFloat64(event + eventLayout.duration, true),
-      packet: runtime.bytes.slice(at, at + view.getUint32(event + eventLayout.packet_size, true)) as Uint8Array<ArrayBuffer>,
-    });
-  }
-
-  private takeText({ runtime, event }: StreamMemory): void {
-    const { view } = runtime;
-    const at = view.getUint32(event + eventLayout.packet, true);
-    this.emit('text', {
-      speech: runtime.wide(event + eventLayout.sequence),
-      mediaTime: view.getFloat64(event + eventLayout.media_time, true),
-      duration: view.getFloat64(event + eventLayout.duration, true),
-      language: runtime.text(view.getUint32(event + eventLayout.language, true)),
-      text: runtime.text(view.getUint32(event + eventLayout.text, true)),
-      score: runtime.bytes.slice(at, at + view.getUint32(event + eventLayout.packet_size, true)) as Uint8Array<ArrayBuffer>,
-    });
-  }
-
-  private takeFrames({ runtime, stream, event, result }: StreamMemory, isKeyframe: boolean): void {
-    if (!this.has(isKeyframe ? 'keyframe' : 'frames')) return; // a player reads them in the library
-    const sequence = runtime.wide(event + eventLayout.sequence);
-    const at = runtime.functions.semblante_stream_frames(stream, result);
-    const { view } = runtime;
-    const count = view.getUint32(result, true);
-    if (count === 0) return;
-    const mediaTime = view.getFloat64(at, true);
-    const frames: TimedFrame[] = Array.from({ length: count }, (_, i) => {
-      const frame = at + i * timedFrameLayout.bytes;
-      const state = readFrame(view, frame + timedFrameLayout.frame, neutralFrame(), this.steps);
-      return { time: view.getFloat64(frame, true) - mediaTime, state };
-    });
-    if (isKeyframe) this.emit('keyframe', { type: 'keyframe', sequence, media_time: mediaTime, state: frames[0]!.state });
-    else this.emit('frames', { type: 'frames', sequence, media_time: mediaTime, frames });
   }
 }
 

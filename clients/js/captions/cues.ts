@@ -1,5 +1,5 @@
 import { wordsOf, wordTimes } from '../../../protocol/ts/speech_score.ts';
-import type { SpokenText } from '../stream_client.ts';
+import type { SpokenText } from '../stream_types.ts';
 
 /** What is shown at once. Times in ms of the stream's clock. */
 export interface Cue {

@@ -1,5 +1,6 @@
 import { Emitter } from '../emitter.ts';
-import type { SpokenText, StreamClient } from '../stream_client.ts';
+import type { StreamClient } from '../stream_client.ts';
+import type { SpokenText } from '../stream_types.ts';
 import { cuesOf, type Cue } from './cues.ts';
 
 /** Cues that are kept; a text of the stream has at most some thirty. */

@@ -1,4 +1,5 @@
-import { StreamClient, streamUrl, type StreamEvents } from '../stream_client.ts';
+import { StreamClient, streamUrl } from '../stream_client.ts';
+import type { StreamEvents } from '../stream_types.ts';
 import { Emitter } from '../emitter.ts';
 import type { Source } from './loader.ts';
 

@@ -1,4 +1,4 @@
-import type { SoundPacket } from '../stream_client.ts';
+import type { SoundPacket } from '../stream_types.ts';
 
 /** ms between the decision that a packet is heard and the moment: what the browser needs */
 const lead = 15;

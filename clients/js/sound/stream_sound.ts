@@ -1,5 +1,6 @@
 import type { PlayoutStats } from '../player.ts';
-import type { SoundPacket, StreamClient } from '../stream_client.ts';
+import type { StreamClient } from '../stream_client.ts';
+import type { SoundPacket } from '../stream_types.ts';
 import { rounding, SoundSchedule } from './schedule.ts';
 
 /** Packets that may wait for the decoder: more than a second of sound. */

@@ -2,7 +2,8 @@ import { wordsOf, wordTimes, type Word } from '../../../protocol/ts/speech_score
 import { Emitter } from '../emitter.ts';
 import { frameLayout } from '../generated/layouts.ts';
 import type { Runtime } from '../runtime.ts';
-import type { SpokenText, StreamClient } from '../stream_client.ts';
+import type { StreamClient } from '../stream_client.ts';
+import type { SpokenText } from '../stream_types.ts';
 import { loadSpeakers, type SpeakerLibrary } from './library.ts';
 
 /** `off`: not asked for. `ready`: text comes, and is said. `failed`: there is no voice, or it did not speak: frames come. */

@@ -3,7 +3,8 @@ import { describe, expect, it } from 'vitest';
 import { cuesOf } from '../../../../clients/js/captions/cues.ts';
 import { StreamCaptions, type Cue } from '../../../../clients/js/captions/index.ts';
 import { Emitter } from '../../../../clients/js/emitter.ts';
-import type { SpokenText, StreamClient, StreamEvents } from '../../../../clients/js/stream_client.ts';
+import type { StreamClient } from '../../../../clients/js/stream_client.ts';
+import type { SpokenText, StreamEvents } from '../../../../clients/js/stream_types.ts';
 import { wordsOf } from '../../../../protocol/ts/index.ts';
 
 /** Each word lasts 240 ms. */
