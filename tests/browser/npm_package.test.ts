@@ -359,14 +359,24 @@ async function compare(page: Page, places: { x: number; y: number; width: number
 type Faces = NodeListOf<HTMLElement & { state: string }>;
 
 /** A browser gives a page 16 contexts of WebGL. */
-test('Package_24Faces_AreAllDrawnAndMove_AlsoAfterTheirContextsAreLost', async () => {
+test('Package_24Faces_AreAllDrawnAndMove_AlsoAfterTheirContextsAreLost_AndWhenTheyAreSeenAgain', async () => {
   const count = 24;
-  // All contexts of the page, and the faces that say that they are not drawn.
+  // All contexts of the page with the number of their textures, and the faces that say that they are not drawn.
   writeFileSync(
     join(project, 'contexts.js'),
     `const { getContext } = HTMLCanvasElement.prototype;
 window.contexts = new Set();
 window.lost = new Set();
+window.textures = 0;
+const { createTexture, deleteTexture } = WebGL2RenderingContext.prototype;
+WebGL2RenderingContext.prototype.createTexture = function () {
+  textures += 1;
+  return createTexture.call(this);
+};
+WebGL2RenderingContext.prototype.deleteTexture = function (texture) {
+  if (texture) textures -= 1;
+  deleteTexture.call(this, texture);
+};
 HTMLCanvasElement.prototype.getContext = function (kind, ...options) {
   const context = getContext.call(this, kind, ...options);
   if (kind === 'webgl2') contexts.add(context);
@@ -406,6 +416,13 @@ document.addEventListener('statechange', ({ target, detail }) => detail.state ==
         )
         .toBe(count);
     };
+    await allMove();
+    const textures = (): Promise<number> => page.evaluate(() => (window as unknown as { textures: number }).textures);
+    const scroll = (margin: string): Promise<void> => page.evaluate((top) => void (document.body.style.marginTop = top), margin);
+    const before = await textures();
+    await scroll('5000px');
+    await expect.poll(textures, { timeout: patience }).toBeLessThan(before - count);
+    await scroll('0');
     await allMove();
     // Some come back, as after a reset of the graphics card; others do not, as when the page has too many.
     await page.evaluate(() => {

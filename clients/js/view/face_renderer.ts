@@ -100,7 +100,7 @@ export class FaceRenderer implements GraphicsUser {
     this.canvas.replaceWith(canvas);
     this.canvas = canvas;
     this.resize(width, height);
-    if (!next.isLost) this.restored();
+    this.restored();
   }
 
   /** While it is away the face keeps nothing in the context. */
@@ -108,7 +108,7 @@ export class FaceRenderer implements GraphicsUser {
     if (isAway === this.isAway) return;
     this.isAway = isAway;
     if (isAway) this.releaseFace();
-    else if (!this.isLost) this.upload();
+    else this.upload();
   }
 
   /** Pixels. */
@@ -130,12 +130,12 @@ export class FaceRenderer implements GraphicsUser {
     let table = tables.get(mesh);
     if (!table) tables.set(mesh, (table = makeTangentTable(mesh)));
     this.loaded = { mesh, table, materials, bitmaps: materials.map(() => [null, null] as const) };
-    if (!this.isLost && !this.isAway) this.upload();
+    this.upload();
   }
 
-  /** Brings the face and its images into the context, which has nothing of it. */
+  /** Brings the face and its images into the context, which has nothing of it, unless it is lost or not needed. */
   private upload(): void {
-    if (!this.loaded) return;
+    if (!this.loaded || this.isLost || this.isAway) return;
     const { gl } = this;
     const { mesh, table, materials, bitmaps } = this.loaded;
     this.entries = gl.createTexture();
