@@ -3,6 +3,7 @@ import type { QualityName } from './detail.ts';
 
 const fits: readonly string[] = ['head', 'face', 'model'] satisfies Fit[];
 const qualities: readonly string[] = ['auto', 'low', 'medium', 'high'] satisfies QualityName[];
+
 /** What the markup of a page can say: for the types of frameworks (README.md). Undefined: not there. */
 export interface FaceAttributes {
   src?: string | undefined;
@@ -22,6 +23,7 @@ export interface FaceAttributes {
 
 /** What a page can set as properties. */
 const properties = ['src', 'stream', 'model', 'poster', 'alt', 'fit', 'quality', 'theme', 'sound', 'voice', 'captions', 'token'] as const;
+
 // Node has no elements; a page that is rendered there can import this module all the same.
 const Base = (globalThis as { HTMLElement?: typeof HTMLElement }).HTMLElement ?? (class {} as typeof HTMLElement);
 

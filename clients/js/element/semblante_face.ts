@@ -14,6 +14,7 @@ export type Connection = 'none' | 'good' | 'fair' | 'poor' | 'lost';
 
 /** Loading begins this far before the element is scrolled into view. */
 const ahead = '200px';
+
 let sheet: CSSStyleSheet | null = null;
 function styles(): CSSStyleSheet {
   if (!sheet) {
