@@ -58,7 +58,7 @@ const awayPatience = 5000;
 /** Of faces that several elements of the page show. */
 const meshes = new WeakMap<Face, DrawableMesh>();
 /** Name of the page's graphics processor, once it was asked for. */
-let renderer: string | undefined;
+let graphicsName: string | undefined;
 
 /** One face on the page: loads it, follows its stream, draws it, keeps the device's pace, and comes back after a loss. */
 export class FaceShow extends Emitter<ShowEvents> {
@@ -110,7 +110,7 @@ export class FaceShow extends Emitter<ShowEvents> {
   ) {
     super();
     this.paused = options.paused;
-    this.budget = budgetOf(thisDevice((renderer ??= rendererName())), options.quality);
+    this.budget = budgetOf(thisDevice((graphicsName ??= rendererName())), options.quality);
     this.render = this.budget.render;
     this.pace = new Pace(cheaperSteps(this.render, window.devicePixelRatio || 1));
     try {

@@ -113,7 +113,10 @@ export class Graphics {
   /** The surroundings as light. `size`: edge of the cube map, pixels. */
   environment(size: number): Environment {
     let environment = this.environments.get(size);
-    if (!environment) this.environments.set(size, (environment = makeEnvironment(this.gl, size)));
+    if (!environment) {
+      this.gl.activeTexture(this.gl.TEXTURE0);
+      this.environments.set(size, (environment = makeEnvironment(this.gl, size)));
+    }
     return environment;
   }
 
