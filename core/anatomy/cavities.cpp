@@ -51,16 +51,6 @@ bool mark_rim(const Surface& surface, PartId part, std::span<const SurfacePoint>
   return true;
 }
 
-/// Where the mouth is a hole in the surface, its border is a rim too, if points lie beside it.
-void mark_edges_of_lips(const Surface& surface, std::span<const SurfacePoint> points, std::vector<bool>& on_rim) {
-  const LipEdges lips = find_lip_edges(surface, points);
-  for (const LipEdge* const lip : {&lips.upper, &lips.lower}) {
-    for (const auto& line : lip->between) {
-      for (const SurfaceVertexId v : line) on_rim[v.value()] = true;
-    }
-  }
-}
-
 struct Rim {
   Cavity cavity;  ///< without members yet
   std::vector<bool> on_rim;
@@ -80,7 +70,9 @@ std::vector<Rim> find_rims(const Surface& surface, PartId part, std::span<const 
         !mark_rim(surface, part, points, corners, opening.lower, rim.on_rim)) {
       continue;
     }
-    if (opening.is_mouth) mark_edges_of_lips(surface, points, rim.on_rim);
+    if (opening.is_mouth) {
+      for (const SurfaceVertexId v : border_of_mouth(surface, points)) rim.on_rim[v.value()] = true;
+    }
     rims.push_back(std::move(rim));
   }
   return rims;

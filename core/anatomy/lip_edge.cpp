@@ -61,9 +61,14 @@ std::vector<SurfaceVertexId> border_of_lip(const Surface& surface, const LipEdge
   return border;
 }
 
-LipEdge find_lip_edge(const Surface& surface, std::span<const SurfacePoint> points, const Names& names) {
+LipEdge with_points(std::span<const SurfacePoint> points, const Names& names) {
   LipEdge lip;
   for (std::size_t i = 0; i < names.size(); ++i) lip.points[i] = point_named(points, names[i]);
+  return lip;
+}
+
+LipEdge find_lip_edge(const Surface& surface, std::span<const SurfacePoint> points, const Names& names) {
+  LipEdge lip = with_points(points, names);
   const std::vector<SurfaceVertexId> border = border_of_lip(surface, lip);
   for (std::size_t i = 0; i < lip.between.size(); ++i) {
     const SurfacePoint* const a = lip.points[i];
@@ -85,6 +90,13 @@ LipEdge find_lip_edge(const Surface& surface, std::span<const SurfacePoint> poin
 }
 
 }  // namespace
+
+std::vector<SurfaceVertexId> border_of_mouth(const Surface& surface, std::span<const SurfacePoint> points) {
+  std::vector<SurfaceVertexId> border = border_of_lip(surface, with_points(points, upper_lip));
+  const std::vector<SurfaceVertexId> lower = border_of_lip(surface, with_points(points, lower_lip));
+  border.insert(border.end(), lower.begin(), lower.end());
+  return border;
+}
 
 LipEdges find_lip_edges(const Surface& surface, std::span<const SurfacePoint> points) {
   return {find_lip_edge(surface, points, upper_lip), find_lip_edge(surface, points, lower_lip)};

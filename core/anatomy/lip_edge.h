@@ -22,6 +22,9 @@ struct LipEdges {
   LipEdge upper, lower;
 };
 
+/// The border of the hole that a mouth is in the surface, along both lips; empty where the mouth is no hole.
+std::vector<SurfaceVertexId> border_of_mouth(const Surface& surface, std::span<const SurfacePoint> points);
+
 /// The edges of both lips. Keeps pointers to `points`.
 LipEdges find_lip_edges(const Surface& surface, std::span<const SurfacePoint> points);
 

@@ -175,11 +175,19 @@ MarkedPoint at_position(std::string_view name, const glm::dvec3& position) {
   return {fp(name), std::nullopt, position};
 }
 
-FeaturePointSet points_at(const Model& model, std::initializer_list<std::pair<std::string_view, std::uint32_t>> marks) {
+FeaturePointSet points_at(const Model& model, const Marks& marks) {
   FeaturePointSet points;
-  for (const auto& [name, vertex] : marks) points.push_back({fp(name), VertexId(vertex), model.positions.at(vertex)});
+  for (const auto& [name, vertex] : marks) {
+    std::erase_if(points, [id = fp(name)](const FeaturePoint& p) { return p.id == id; });
+    points.push_back({fp(name), VertexId(vertex), model.positions.at(vertex)});
+  }
   std::sort(points.begin(), points.end(), [](const FeaturePoint& a, const FeaturePoint& b) { return a.id < b.id; });
   return points;
+}
+
+Marks with(Marks marks, const Marks& more) {
+  marks.insert(marks.end(), more.begin(), more.end());
+  return marks;
 }
 
 }  // namespace semblante::testing

@@ -51,7 +51,10 @@ FeaturePointId fp(std::string_view name);
 MarkedPoint at_vertex(std::string_view name, std::uint32_t vertex);
 MarkedPoint at_position(std::string_view name, const glm::dvec3& position);
 
-/// Placed points at file vertices, in rising order of id.
-FeaturePointSet points_at(const Model& model, std::initializer_list<std::pair<std::string_view, std::uint32_t>> marks);
+using Marks = std::vector<std::pair<std::string_view, std::uint32_t>>;
+/// Placed points at file vertices, in rising order of id. A later mark of a point counts in place of an earlier one.
+FeaturePointSet points_at(const Model& model, const Marks& marks);
+/// `marks` and then `more`.
+Marks with(Marks marks, const Marks& more);
 
 }  // namespace semblante::testing

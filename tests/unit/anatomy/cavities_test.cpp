@@ -13,10 +13,16 @@ namespace {
 
 constexpr std::uint32_t side = 40;
 constexpr std::uint32_t at(std::uint32_t column, std::uint32_t row) { return row * (side + 1) + column; }
-using Marks = std::initializer_list<std::pair<std::string_view, std::uint32_t>>;
+using testing::Marks;
+using testing::with;
 
-/// A mouth in the middle of a grid: paths along its rim stay near to a rectangle.
-std::vector<Cavity> cavities_of(Marks marks) {
+/// A mouth in the middle of a grid, and the chin: paths along the rim stay near to a rectangle.
+Marks mouth_and_chin() {
+  return {{"2.4", at(30, 20)}, {"2.5", at(10, 20)}, {"2.6", at(28, 28)}, {"2.7", at(12, 28)},
+          {"2.8", at(28, 12)}, {"2.9", at(12, 12)}, {"2.1", at(20, 3)}};
+}
+
+std::vector<Cavity> cavities_of(const Marks& marks) {
   const Model model = testing::make_grid(side, side);
   const Surface surface = build_surface(model);
   return find_cavities(surface, PartId(0), surface_points(surface, testing::points_at(model, marks)));
@@ -27,13 +33,7 @@ bool holds(const Cavity& cavity, std::uint32_t vertex) {
 }
 
 TEST(Cavities, LieBehindTheRimAndWithoutIt) {
-  const auto cavities = cavities_of({{"2.4", at(30, 20)},
-                                     {"2.5", at(10, 20)},
-                                     {"2.6", at(28, 28)},
-                                     {"2.7", at(12, 28)},
-                                     {"2.8", at(28, 12)},
-                                     {"2.9", at(12, 12)},
-                                     {"2.1", at(20, 3)}});
+  const auto cavities = cavities_of(mouth_and_chin());
 
   ASSERT_EQ(cavities.size(), 1U);
   EXPECT_TRUE(cavities[0].is_mouth);
@@ -52,27 +52,12 @@ TEST(Cavities, NeedARimOfBothLipsAndAPointBesideIt) {
 
 // A tongue that is a part of the skin moves by its own points.
 TEST(Cavities, AreNoneWithAPointInside) {
-  EXPECT_TRUE(cavities_of({{"2.4", at(30, 20)},
-                           {"2.5", at(10, 20)},
-                           {"2.6", at(28, 28)},
-                           {"2.7", at(12, 28)},
-                           {"2.8", at(28, 12)},
-                           {"2.9", at(12, 12)},
-                           {"2.1", at(20, 3)},
-                           {"6.1", at(20, 20)}})
-                  .empty());
+  EXPECT_TRUE(cavities_of(with(mouth_and_chin(), {{"6.1", at(20, 20)}})).empty());
 }
 
 // A guessed point of the outer lip may be at a vertex behind the rim; that does not make the inside a front.
 TEST(Cavities, HoldAPointOfTheLipsThatIsBehindTheRim) {
-  const auto cavities = cavities_of({{"2.4", at(30, 20)},
-                                     {"2.5", at(10, 20)},
-                                     {"2.6", at(28, 28)},
-                                     {"2.7", at(12, 28)},
-                                     {"2.8", at(28, 12)},
-                                     {"2.9", at(12, 12)},
-                                     {"2.1", at(20, 3)},
-                                     {"8.6", at(13, 25)}});
+  const auto cavities = cavities_of(with(mouth_and_chin(), {{"8.6", at(13, 25)}}));
   ASSERT_EQ(cavities.size(), 1U);
   EXPECT_TRUE(holds(cavities[0], at(20, 20)));
   EXPECT_FALSE(holds(cavities[0], at(20, 35)));
@@ -95,13 +80,7 @@ TEST(Cavities, OfTheSampleHeadAreItsMouthBehindTheLips) {
 TEST(InsideOfMouth, BeginsBehindTheThicknessOfALip) {
   const Model model = testing::make_grid(side, side);
   const Surface surface = build_surface(model);
-  const auto points = surface_points(surface, testing::points_at(model, {{"2.4", at(30, 20)},
-                                                                         {"2.5", at(10, 20)},
-                                                                         {"2.6", at(28, 28)},
-                                                                         {"2.7", at(12, 28)},
-                                                                         {"2.8", at(28, 12)},
-                                                                         {"2.9", at(12, 12)},
-                                                                         {"2.1", at(20, 3)}}));
+  const auto points = surface_points(surface, testing::points_at(model, mouth_and_chin()));
   std::vector<Part> parts(1);
   parts[0].role = PartRole::skin;
   const double cell = glm::distance(model.positions[at(1, 0)], model.positions[at(0, 0)]);
