@@ -21,6 +21,9 @@ constexpr std::size_t places_of_fold = 5;
 /// Share of a fold's point from which on its places are held. Nearer to a corner the fold runs into the edge, which
 /// must meet the other one.
 constexpr double middle_of_fold = 0.7;
+/// Maximum distance of a vertex from its place on a fold, as a share of the fold's distance from the edge there. On a
+/// coarse mesh a vertex farther away would follow the fold although it lies above or below it.
+constexpr double greatest_step_to_fold = 0.28;
 constexpr std::size_t places_of_lip = 2;
 /// The height of an eye's opening as a share of its width from which on the heights along the edges say how its lids
 /// close. Those of closed lids (`closed_height`) say nothing.
@@ -114,25 +117,45 @@ MarginSite site_between_corners(const LidEdge& edge, SurfaceVertexId vertex, con
   return site;
 }
 
+/// How far the places on the edge of a lid follow its middle.
+class LidShares {
+ public:
+  LidShares(const Surface& surface, const LidEdge& edge, const LidEdge& other, bool is_upper)
+      : surface_(surface), edge_(edge), other_(other), is_upper_(is_upper) {
+    height_ = is_upper ? edge.middle.position.y - other.middle.position.y  //
+                       : other.middle.position.y - edge.middle.position.y;
+    const double width = glm::distance(edge.corners[0].position, edge.corners[1].position);
+    is_open_ = smooth_step(closed_height, open_height, height_ / width);
+  }
+
+  /// At a place `p` on the way to corner `c`.
+  [[nodiscard]] double at(std::size_t c, const glm::dvec3& p) const {
+    // Beyond the end of the other edge there is no opening.
+    const double across = meeting_height(surface_, edge_, other_, c, p, is_upper_).value_or(p.y);
+    const double by_height = height_ > 0.0 ? std::clamp(std::abs(p.y - across) / height_, 0.0, 1.0) : 0.0;
+    const double arc = is_open_ < 1.0 ? arc_share(edge_, p) : 0.0;
+    return is_open_ * by_height + (1.0 - is_open_) * arc;
+  }
+
+ private:
+  const Surface& surface_;
+  const LidEdge& edge_;
+  const LidEdge& other_;
+  bool is_upper_;
+  double height_;
+  double is_open_;
+};
+
 void add_lid_sites(const Surface& surface, const LidEdge& edge, const LidEdge& other, bool is_upper,
                    std::vector<MarginSite>& sites) {
-  const SurfacePoint& a = edge.corners[0];
-  const SurfacePoint& b = edge.corners[1];
-  const double height = is_upper ? edge.middle.position.y - other.middle.position.y  //
-                                 : other.middle.position.y - edge.middle.position.y;
-  const double is_open = smooth_step(closed_height, open_height, height / glm::distance(a.position, b.position));
+  const LidShares shares(surface, edge, other, is_upper);
   for (std::size_t c = 0; c < 2; ++c) {
     const auto& path = edge.to_corner[c];
     std::vector<SurfaceVertexId> places = places_on(surface, path, places_of_lid);
     if (!edge.ends_at_corner[c] && !path.empty()) places.push_back(path.back());
     for (const SurfaceVertexId vertex : places) {
       const glm::dvec3& p = surface.positions[vertex.value()];
-      // Beyond the end of the other edge there is no opening.
-      const double across = meeting_height(surface, edge, other, c, p, is_upper).value_or(p.y);
-      const double by_height = height > 0.0 ? std::clamp(std::abs(p.y - across) / height, 0.0, 1.0) : 0.0;
-      const double arc = is_open < 1.0 ? arc_share(edge, p) : 0.0;
-      const double middle = is_open * by_height + (1.0 - is_open) * arc;
-      sites.push_back(site_between_corners(edge, vertex, p, middle));
+      sites.push_back(site_between_corners(edge, vertex, p, shares.at(c, p)));
     }
   }
 }
@@ -152,7 +175,7 @@ std::vector<SurfaceVertexId> skin_about(const Surface& surface, const LidEdge& l
 }
 
 /// The fold of an upper lid: as far from the edge as its point in the middle, and ever nearer towards the corners,
-/// where it ends in the edge.
+/// where it ends in the edge. It follows its point as the edge below it follows the middle of the edge.
 void add_fold_sites(const Surface& surface, const EyeEdges& eye, const LidEdge& lid, const SurfacePoint& fold,
                     std::vector<MarginSite>& sites) {
   if (surface.part_of[fold.vertex.value()] != surface.part_of[lid.middle.vertex.value()]) return;
@@ -161,8 +184,9 @@ void add_fold_sites(const Surface& surface, const EyeEdges& eye, const LidEdge& 
   const std::vector<SurfaceVertexId> skin = skin_about(surface, lid, reach);
   LidEdge line = lid;
   line.middle = fold;
-  for (const auto& path : lid.to_corner) {
-    for (const SurfaceVertexId beside : places_on(surface, path, places_of_fold)) {
+  const LidShares shares(surface, lid, eye.lower, true);
+  for (std::size_t c = 0; c < 2; ++c) {
+    for (const SurfaceVertexId beside : places_on(surface, lid.to_corner[c], places_of_fold)) {
       const glm::dvec3& edge = surface.positions[beside.value()];
       const double share = arc_share(lid, edge);
       if (share < middle_of_fold) continue;
@@ -172,7 +196,8 @@ void add_fold_sites(const Surface& surface, const EyeEdges& eye, const LidEdge& 
       const SurfaceVertexId vertex = *std::min_element(
           skin.begin(), skin.end(), [&off](SurfaceVertexId a, SurfaceVertexId b) { return off(a) < off(b); });
       if (is_on(eye.upper, vertex) || is_on(eye.lower, vertex)) continue;
-      sites.push_back(site_between_corners(line, vertex, edge, share));
+      if (off(vertex) > greatest_step_to_fold * share * glm::length(from_edge)) continue;
+      sites.push_back(site_between_corners(line, vertex, edge, shares.at(c, edge)));
       sites.back().is_edge = false;
     }
   }

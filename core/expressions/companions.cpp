@@ -1,10 +1,51 @@
 #include "core/expressions/companions.h"
 
 #include <algorithm>
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include <glm/geometric.hpp>
 
 #include "core/tables/mpeg4.h"
 
 namespace semblante {
+namespace {
+
+struct Fold {
+  std::string_view fold, edge, brow;
+  std::array<std::string_view, 2> corners;
+};
+constexpr std::array folds = {Fold{"3.13", "3.1", "4.3", {"3.11", "3.7"}}, Fold{"3.14", "3.2", "4.4", {"3.8", "3.12"}}};
+/// Distance of a brow from the fold of its lid, in widths of the eye, from which on the fold stays when the brow moves.
+constexpr double far_brow = 0.5;
+
+std::optional<glm::dvec3> place_of(const FeaturePointSet& points, std::string_view name) {
+  const auto at = std::find_if(points.begin(), points.end(),
+                               [id = parse_feature_point(name)](const FeaturePoint& p) { return p.id == id; });
+  return at != points.end() ? std::optional(glm::dvec3(at->position)) : std::nullopt;
+}
+
+}  // namespace
+
+std::vector<Companion> folds_below_near_brows(const FeaturePointSet& points) {
+  std::vector<Companion> result;
+  for (const Fold& eye : folds) {
+    const auto fold = place_of(points, eye.fold);
+    const auto edge = place_of(points, eye.edge);
+    const auto brow = place_of(points, eye.brow);
+    const auto inner = place_of(points, eye.corners[0]);
+    const auto outer = place_of(points, eye.corners[1]);
+    if (!fold || !edge || !brow || !inner || !outer) continue;
+    const double above = glm::distance(*brow, *fold);
+    const double below = glm::distance(*fold, *edge);
+    const double width = glm::distance(*inner, *outer);
+    if (!(width > 0.0 && above > 0.0 && above < far_brow * width)) continue;
+    const double share = std::min(1.0 - above / (far_brow * width), below / (above + below));
+    result.push_back({*parse_feature_point(eye.fold), *parse_feature_point(eye.brow), static_cast<float>(share)});
+  }
+  return result;
+}
 
 std::vector<Companion> companions_of(const FeaturePointSet& points) {
   const auto is_marked = [&points](FeaturePointId id) {
@@ -16,6 +57,7 @@ std::vector<Companion> companions_of(const FeaturePointSet& points) {
                               static_cast<float>(entry.share), entry.is_choice};
     if (is_marked(companion.point) && is_marked(companion.leader)) result.push_back(companion);
   }
+  for (const Companion& fold : folds_below_near_brows(points)) result.push_back(fold);
   return result;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <string>
 
+#include "core/expressions/companions.h"
 #include "core/tables/openings.h"
 
 namespace semblante {
@@ -79,6 +80,18 @@ void reach_upper_teeth(std::vector<Displacement>& displacements, const FeaturePo
   }
 }
 
+void follow_near_brows(std::vector<Displacement>& displacements, const FeaturePointSet& points) {
+  for (const Companion& follower : folds_below_near_brows(points)) {
+    Displacement* const fold = find(displacements, follower.point);
+    const Displacement* const brow = find(displacements, follower.leader);
+    if (fold == nullptr || brow == nullptr) continue;
+    const float along = follower.share * brow->value.y;
+    const bool is_less = along < 0.0F ? fold->value.y < 0.0F && fold->value.y > along  //
+                                      : fold->value.y > 0.0F && fold->value.y < along;
+    if (is_less) fold->value.y = along;
+  }
+}
+
 std::vector<Displacement> articulated(const DisplacementSet& set, double articulation) {
   std::vector<Displacement> result(set.displacements.begin(), set.displacements.end());
   const auto more = static_cast<float>((articulation - usual_articulation) * set.jaw_open);
@@ -93,6 +106,7 @@ ModelDisplacements on_face(const DisplacementSet& set, const Fapu& fapu, const F
   const std::vector<Displacement> displacements = articulated(set, articulation);
   ModelDisplacements result = to_model_units({set.name, displacements}, fapu);
   if (set.meets_upper_teeth) reach_upper_teeth(result.displacements, points);
+  if (set.of_library) follow_near_brows(result.displacements, points);
   if (const auto mns = fapu[FapuUnit::mns]) stop_at_contact(result.displacements, points, 1024.0 * *mns, gaps);
   return result;
 }

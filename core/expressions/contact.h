@@ -28,11 +28,15 @@ void reach_upper_teeth(std::vector<Displacement>& displacements, const FeaturePo
 inline constexpr double share_to_teeth = 0.85;
 inline constexpr double most_to_teeth = 2.5;
 
+/// Moves the fold of an upper lid at least as far as it goes along with a near brow (`folds_below_near_brows`), where
+/// the set moves both up or both down: the fold of the library's sets is that of faces whose brows are far.
+void follow_near_brows(std::vector<Displacement>& displacements, const FeaturePointSet& points);
+
 /// The set with its opening of the jaw multiplied by `articulation`, at the points that it moves. FAPU units.
 std::vector<Displacement> articulated(const DisplacementSet& set, double articulation);
 
-/// A displacement set of the library on one head: in model units, articulated, scaled to meet the teeth if the set
-/// does, stopped at contact.
+/// A displacement set on one head: in model units, articulated, scaled to meet the teeth if the set
+/// does, its folds with near brows if it is of the library, stopped at contact.
 ModelDisplacements on_face(const DisplacementSet& set, const Fapu& fapu, const FeaturePointSet& points,
                            const std::optional<LipGaps>& gaps = std::nullopt, double articulation = usual_articulation);
 

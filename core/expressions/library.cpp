@@ -31,7 +31,7 @@ Library build(const std::array<generated::Set, N>& source) {
     }
     // Reserved above, so the array does not move and the spans stay valid.
     library.sets.push_back({set.name, std::span<const Displacement>(library.displacements).subspan(first),
-                            set.meets_upper_teeth, set.jaw_open});
+                            set.meets_upper_teeth, set.jaw_open, true});
   }
   return library;
 }

@@ -24,6 +24,7 @@ struct DisplacementSet {
   std::span<const Displacement> displacements;
   bool meets_upper_teeth = false;  ///< the lower lip moves to the edge of the upper teeth of each head
   double jaw_open = 0.0;           ///< the amount of jaw_open_action() in a viseme of the library
+  bool of_library = false;         ///< else of one face: measured there, or made by a user
 };
 
 /// The 15 visemes of FAP 1, by number: sil p_b_m f_v th t_d k_g ch_j_sh s_z n_l r a e i o u. Static

@@ -1,6 +1,7 @@
 #include "core/anatomy/opening_margins.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <string>
@@ -131,9 +132,14 @@ class CoarseMouth {
     return slit_ && column > -4 && column < 4 ? static_cast<std::uint32_t>(column + 3 + 27) : lower(column);
   }
 
+  /// The points of the lips: at the middle, the corners, and half way between them.
+  [[nodiscard]] testing::Marks marks() const {
+    return {{"2.2", upper(0)}, {"2.3", lower(0)},  {"2.4", lower(4)}, {"2.5", lower(-4)},
+            {"2.6", upper(2)}, {"2.7", upper(-2)}, {"2.8", lower(2)}, {"2.9", lower(-2)}};
+  }
+
   /// The shares at a vertex, empty without a place there; by name.
-  [[nodiscard]] std::map<std::string, double> shares_at(
-      std::uint32_t vertex, std::initializer_list<std::pair<std::string_view, std::uint32_t>> marks) const {
+  [[nodiscard]] std::map<std::string, double> shares_at(std::uint32_t vertex, const testing::Marks& marks) const {
     std::map<std::string, double> shares;
     const auto points = surface_points(surface_, testing::points_at(model_, marks));
     for (const MarginSite& site : margin_sites(surface_, points)) {
@@ -143,8 +149,7 @@ class CoarseMouth {
     return shares;
   }
   /// Whether a vertex is said to lie behind the rim of the mouth.
-  [[nodiscard]] bool is_inside(std::uint32_t vertex,
-                               std::initializer_list<std::pair<std::string_view, std::uint32_t>> marks) const {
+  [[nodiscard]] bool is_inside(std::uint32_t vertex, const testing::Marks& marks) const {
     const auto cavities =
         find_cavities(surface_, PartId(0), surface_points(surface_, testing::points_at(model_, marks)));
     return std::any_of(cavities.begin(), cavities.end(), [&](const Cavity& cavity) {
@@ -159,19 +164,14 @@ class CoarseMouth {
 };
 
 using Shares = std::map<std::string, double>;
+using testing::with;
 
 // The points beside the middle are at the chin's vertices, as a coarse mesh and a guess may have it.
 TEST(OpeningMarginsOfACoarseMouth, FollowTheHoleThoughPointsLieBesideIt) {
   const CoarseMouth mouth(true);
   const auto at_rim = [&](std::uint32_t vertex) {
-    return mouth.shares_at(vertex, {{"2.2", mouth.upper(0)},
-                                    {"2.3", mouth.lower(0)},
-                                    {"2.4", mouth.lower(4)},
-                                    {"2.5", mouth.lower(-4)},
-                                    {"2.6", mouth.upper(2)},
-                                    {"2.7", mouth.upper(-2)},
-                                    {"2.8", CoarseMouth::chin(2)},
-                                    {"2.9", CoarseMouth::chin(-2)}});
+    return mouth.shares_at(vertex,
+                           with(mouth.marks(), {{"2.8", CoarseMouth::chin(2)}, {"2.9", CoarseMouth::chin(-2)}}));
   };
   EXPECT_EQ(at_rim(mouth.lower(1)), (Shares{{"2.3", 0.5}, {"2.8", 0.5}}));
   EXPECT_EQ(at_rim(mouth.lower(2)), (Shares{{"2.8", 1.0}}));
@@ -183,26 +183,15 @@ TEST(OpeningMarginsOfACoarseMouth, FollowTheHoleThoughPointsLieBesideIt) {
 // Between the hole and the shortest path through a point below it; the inside of a mouth does not follow the lip fully.
 TEST(OpeningMarginsOfACoarseMouth, TheBorderOfTheHoleIsNoInside) {
   const CoarseMouth mouth(true);
-  EXPECT_FALSE(mouth.is_inside(mouth.lower(-1), {{"2.1", CoarseMouth::chin(0)},
-                                                 {"2.2", mouth.upper(0)},
-                                                 {"2.3", mouth.lower(0)},
-                                                 {"2.4", mouth.lower(4)},
-                                                 {"2.5", mouth.lower(-4)},
-                                                 {"2.9", CoarseMouth::chin(-3)},
-                                                 {"9.3", CoarseMouth::nose(0)}}));
+  EXPECT_FALSE(mouth.is_inside(mouth.lower(-1), with(mouth.marks(), {{"2.1", CoarseMouth::chin(0)},
+                                                                     {"2.9", CoarseMouth::chin(-3)},
+                                                                     {"9.3", CoarseMouth::nose(0)}})));
 }
 
 TEST(OpeningMarginsOfACoarseMouth, OnALineOfBothLipsAreTheMeanOfBoth) {
   const CoarseMouth mouth(false);
   const auto at_line = [&](std::uint32_t vertex) {
-    return mouth.shares_at(vertex, {{"2.2", mouth.lower(0)},
-                                    {"2.3", mouth.lower(0)},
-                                    {"2.4", mouth.lower(4)},
-                                    {"2.5", mouth.lower(-4)},
-                                    {"2.6", mouth.lower(1)},
-                                    {"2.7", mouth.lower(-1)},
-                                    {"2.8", mouth.lower(2)},
-                                    {"2.9", mouth.lower(-2)}});
+    return mouth.shares_at(vertex, with(mouth.marks(), {{"2.6", mouth.lower(1)}, {"2.7", mouth.lower(-1)}}));
   };
   EXPECT_EQ(at_line(mouth.lower(0)), (Shares{{"2.2", 0.5}, {"2.3", 0.5}}));
   EXPECT_EQ(at_line(mouth.lower(1)), (Shares{{"2.6", 0.5}, {"2.3", 0.25}, {"2.8", 0.25}}));
@@ -212,11 +201,19 @@ TEST(OpeningMarginsOfACoarseMouth, OnALineOfBothLipsAreTheMeanOfBoth) {
   EXPECT_TRUE(at_line(mouth.lower(4)).empty()) << "a corner moves as its point";
 }
 
-/// A plate with a slit of four columns as the eye, whose fold is one row above it.
+/// A plate with a slit of four columns as the eye, whose fold is the row above it, bent to an arc.
 class Fold : public ::testing::Test {
  protected:
+  Fold() { bend(0.75F); }
+
+  /// The height of the fold half way to the corners.
+  void bend(float y) {
+    for (const std::uint32_t vertex : half_way_) plate_.model.positions.at(vertex).y = y;
+  }
+
   testing::ClosedMouth plate_ = testing::make_closed_mouth();
   std::uint32_t brow_ = plate_.at(0, 2);
+  std::array<std::uint32_t, 2> half_way_ = {plate_.at(-1, 1), plate_.at(1, 1)};
 
   /// The places on the fold, with 3.13 at a vertex of the plate.
   std::vector<std::pair<glm::dvec3, double>> sites(std::uint32_t at) {
@@ -249,13 +246,18 @@ TEST_F(Fold, IsAnArcFromCornerToCorner) {
   ASSERT_EQ(found.size(), 2U);
   for (const auto& [place, share] : found) {
     EXPECT_EQ(std::abs(place.x), 1.0);
-    EXPECT_EQ(place.y, 1.0);
+    EXPECT_EQ(place.y, 0.75);
     EXPECT_DOUBLE_EQ(share, 0.75);
   }
 }
 
 TEST_F(Fold, FarBelowTheBrow_HasNoPlaces) {
   plate_.model.positions[brow_].z = 3.0F;
+  EXPECT_TRUE(sites(plate_.at(0, 1)).empty());
+}
+
+TEST_F(Fold, WithoutAVertexNearItsLine_HasNoPlaces) {
+  bend(1.0F);
   EXPECT_TRUE(sites(plate_.at(0, 1)).empty());
 }
 

@@ -1,0 +1,87 @@
+#include "core/expressions/companions.h"
+
+#include <algorithm>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "core/expressions/contact.h"
+#include "tests/support/meshes.h"
+
+namespace semblante {
+namespace {
+
+/// A left eye ten wide and a fold `below` above the edge of its lid, with a brow `above` it.
+FeaturePointSet eye(float above, float below) {
+  return {{testing::fp("3.1"), VertexId(0), {5.0F, 0.0F, 0.0F}},
+          {testing::fp("3.7"), VertexId(0), {10.0F, 0.0F, 0.0F}},
+          {testing::fp("3.11"), VertexId(0), {0.0F, 0.0F, 0.0F}},
+          {testing::fp("3.13"), VertexId(0), {5.0F, below, 0.0F}},
+          {testing::fp("4.3"), VertexId(0), {5.0F, below + above, 0.0F}}};
+}
+
+/// The share of the brow that the fold follows; 0 without an entry.
+float share_of(const FeaturePointSet& points) {
+  const auto companions = companions_of(points);
+  const auto at = std::find_if(companions.begin(), companions.end(), [](const Companion& c) {
+    return c.point == testing::fp("3.13") && c.leader == testing::fp("4.3");
+  });
+  return at != companions.end() ? at->share : 0.0F;
+}
+
+TEST(FoldsBelowNearBrows, StayBelowABrowHalfAnEyeAboveThem) {
+  EXPECT_EQ(share_of(eye(5.0F, 2.0F)), 0.0F);
+  EXPECT_NEAR(share_of(eye(4.9F, 2.0F)), 0.02F, 1e-6F);
+}
+
+// A brow that goes down by d leaves the skin (1 - share) d narrower: 2 d / (eye's width) of it, as with a far brow.
+TEST(FoldsBelowNearBrows, KeepTheSkinBelowTheBrowAsWideAsWithAFarOne) {
+  EXPECT_NEAR(share_of(eye(4.0F, 4.0F)), 0.2F, 1e-6F);
+  EXPECT_NEAR(share_of(eye(3.0F, 3.0F)), 0.4F, 1e-6F);
+}
+
+TEST(FoldsBelowNearBrows, SqueezeTheLidNoMoreThanTheSkinAbove) { EXPECT_NEAR(share_of(eye(3.0F, 1.0F)), 0.25F, 1e-6F); }
+
+TEST(FoldsBelowNearBrows, NeedAllPointsOfTheEye) {
+  for (std::size_t left_out = 0; left_out < 5; ++left_out) {
+    FeaturePointSet points = eye(3.0F, 3.0F);
+    points.erase(points.begin() + static_cast<std::ptrdiff_t>(left_out));
+    EXPECT_EQ(share_of(points), 0.0F);
+  }
+}
+
+float fold_after(float fold, float brow) {
+  std::vector<Displacement> displacements = {{testing::fp("3.13"), {0.5F, fold, 0.0F}},
+                                             {testing::fp("4.3"), {0.0F, brow, 0.0F}}};
+  follow_near_brows(displacements, eye(3.0F, 3.0F));
+  EXPECT_EQ(displacements[0].value.x, 0.5F);
+  EXPECT_EQ(displacements[1].value.y, brow);
+  return displacements[0].value.y;
+}
+
+TEST(FollowNearBrows, MovesAFoldThatStaysBehind) {
+  EXPECT_FLOAT_EQ(fold_after(-0.1F, -1.0F), -0.4F);
+  EXPECT_FLOAT_EQ(fold_after(0.1F, 1.0F), 0.4F);
+}
+
+TEST(FollowNearBrows, LeavesAFoldThatGoesFartherOrItsOwnWay) {
+  EXPECT_EQ(fold_after(-0.5F, -1.0F), -0.5F);
+  EXPECT_EQ(fold_after(-0.1F, 1.0F), -0.1F);
+  EXPECT_EQ(fold_after(0.1F, -1.0F), 0.1F);
+}
+
+// What was measured on a face, or made by a user, is worn as it is.
+TEST(FollowNearBrows, IsOfTheLibraryAlone) {
+  const std::vector<Displacement> displacements = {{testing::fp("3.13"), {0.0F, -0.1F, 0.0F}},
+                                                   {testing::fp("4.3"), {0.0F, -1.0F, 0.0F}}};
+  Fapu fapu;
+  fapu.value.fill(1.0);
+  DisplacementSet set{"anger", displacements};
+  EXPECT_FLOAT_EQ(on_face(set, fapu, eye(3.0F, 3.0F)).displacements[0].value.y, -0.1F);
+  set.of_library = true;
+  EXPECT_FLOAT_EQ(on_face(set, fapu, eye(3.0F, 3.0F)).displacements[0].value.y, -0.4F);
+  for (const DisplacementSet& expression : expression_library()) EXPECT_TRUE(expression.of_library) << expression.name;
+}
+
+}  // namespace
+}  // namespace semblante
