@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <string_view>
 
 #include "core/expressions/companions.h"
 #include "core/tables/openings.h"
@@ -92,6 +93,20 @@ void follow_near_brows(std::vector<Displacement>& displacements, const FeaturePo
   }
 }
 
+void keep_lids_shut(std::vector<Displacement>& displacements) {
+  for (const mpeg4::Opening& opening : mpeg4::openings) {
+    if (opening.is_mouth) continue;
+    for (const std::string_view name : opening.upper) {
+      if (Displacement* const lid = find(displacements, *parse_feature_point(name)))
+        lid->value.y = std::min(lid->value.y, 0.0F);
+    }
+    for (const std::string_view name : opening.lower) {
+      if (Displacement* const lid = find(displacements, *parse_feature_point(name)))
+        lid->value.y = std::max(lid->value.y, 0.0F);
+    }
+  }
+}
+
 std::vector<Displacement> articulated(const DisplacementSet& set, double articulation) {
   std::vector<Displacement> result(set.displacements.begin(), set.displacements.end());
   const auto more = static_cast<float>((articulation - usual_articulation) * set.jaw_open);
@@ -106,7 +121,11 @@ ModelDisplacements on_face(const DisplacementSet& set, const Fapu& fapu, const F
   const std::vector<Displacement> displacements = articulated(set, articulation);
   ModelDisplacements result = to_model_units({set.name, displacements}, fapu);
   if (set.meets_upper_teeth) reach_upper_teeth(result.displacements, points);
-  if (set.of_library) follow_near_brows(result.displacements, points);
+  if (set.of_library) {
+    follow_near_brows(result.displacements, points);
+    if (fapu.origin[static_cast<std::size_t>(FapuUnit::irisd)] == FapuOrigin::closed_eyes)
+      keep_lids_shut(result.displacements);
+  }
   if (const auto mns = fapu[FapuUnit::mns]) stop_at_contact(result.displacements, points, 1024.0 * *mns, gaps);
   return result;
 }

@@ -83,5 +83,16 @@ TEST(FollowNearBrows, IsOfTheLibraryAlone) {
   for (const DisplacementSet& expression : expression_library()) EXPECT_TRUE(expression.of_library) << expression.name;
 }
 
+TEST(KeepLidsShut, StopsWhatOpensThemAlone) {
+  std::vector<Displacement> displacements = {{testing::fp("3.1"), {0.0F, 1.0F, 0.0F}},
+                                             {testing::fp("3.2"), {0.0F, -1.0F, 0.0F}},
+                                             {testing::fp("3.3"), {0.0F, 1.0F, 0.0F}},
+                                             {testing::fp("3.4"), {0.0F, -1.0F, 0.0F}},
+                                             {testing::fp("2.2"), {0.0F, 1.0F, 0.0F}}};
+  keep_lids_shut(displacements);
+  const std::vector<float> expected = {0.0F, -1.0F, 1.0F, 0.0F, 1.0F};
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(displacements[i].value.y, expected[i]) << i;
+}
+
 }  // namespace
 }  // namespace semblante
