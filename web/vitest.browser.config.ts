@@ -2,7 +2,7 @@ import { defineConfig } from 'vitest/config';
 import { patience } from '../tests/browser/support/patience.ts';
 import { aliases, packagesForTests } from './aliases.ts';
 
-/** The studio in headless Chromium against a real server process for each file. */
+/** The studio in headless Chromium against a real server process: slow, one at a time. */
 export default defineConfig({
   resolve: { alias: [...aliases, ...packagesForTests] },
   server: { fs: { allow: ['..'] } },
@@ -13,8 +13,6 @@ export default defineConfig({
     // Each wait has a limit of its own (support/patience.ts); this ends what hangs without one, and names it.
     testTimeout: 2 * patience,
     hookTimeout: 2 * patience,
-    // A page waits for the server, the network and its own animation for a third of the time: two files fill two cores.
-    minWorkers: 1,
-    maxWorkers: 2,
+    fileParallelism: false, // drawing without a graphics card takes both cores of a small machine
   },
 });

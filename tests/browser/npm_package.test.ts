@@ -10,6 +10,7 @@ import { buildDir, root } from './support/paths.ts';
 import { patience } from './support/patience.ts';
 import { startServer, type RunningServer } from './support/server.ts';
 import { launch } from './support/studio_page.ts';
+import { everyVariant } from './support/variants.ts';
 
 /** Does not block: the runner asks for signs of life. */
 const run = promisify(execFile);
@@ -253,7 +254,10 @@ async function moves(path: string, origin = server.url, more?: (page: Page) => P
     });
     await page.goto(origin + path, { timeout: patience });
     await page.waitForFunction(() => (document.querySelector('semblante-face') as { state?: string } | null)?.state === 'playing');
-    await more?.(page);
+    await more?.(page).catch((error: unknown) => {
+      expect(errors).toEqual([]); // tells more
+      throw error;
+    });
     expect(errors).toEqual([]);
   } finally {
     await browser.close();
@@ -359,8 +363,8 @@ async function compare(page: Page, places: { x: number; y: number; width: number
 type Faces = NodeListOf<HTMLElement & { state: string }>;
 
 /** A browser gives a page 16 contexts of WebGL. */
-test('Package_24Faces_AreAllDrawnAndMove_AlsoAfterTheirContextsAreLost_AndWhenTheyAreSeenAgain', async () => {
-  const count = 24;
+test('Package_ManyFaces_AreAllDrawnAndMove_AlsoAfterTheirContextsAreLost_AndWhenTheyAreSeenAgain', async () => {
+  const count = everyVariant ? 24 : 8; // without a graphics card each costs as much as the whole studio
   // All contexts of the page with the number of their textures, and the faces that say that they are not drawn.
   writeFileSync(
     join(project, 'contexts.js'),
@@ -410,11 +414,12 @@ document.addEventListener('statechange', ({ target, detail }) => detail.state ==
             seen.forEach(({ covered, changed }, i) => {
               if (covered > 0.25 && changed > 0.002) moved.add(i);
             });
-            return moved.size;
+            const states = await page.evaluate(() => [...(document.querySelectorAll('semblante-face') as Faces)].map(({ state }) => state));
+            return seen.flatMap(({ covered, changed }, i) => (moved.has(i) ? [] : [`face ${i}, ${states[i]}: ${covered} covered, ${changed} changed`]));
           },
           { timeout: patience, interval: 500 },
         )
-        .toBe(count);
+        .toEqual([]);
     };
     await allMove();
     const textures = (): Promise<number> => page.evaluate(() => (window as unknown as { textures: number }).textures);
