@@ -327,7 +327,7 @@ interface Seen {
   changed: number;
 }
 
-/** What two pictures of a page show at these places. */
+/** What two pictures of a page show at these places: what the first covers, and what the second changes. */
 async function compare(page: Page, places: { x: number; y: number; width: number; height: number }[], pictures: Buffer[]): Promise<Seen[]> {
   const addresses = pictures.map((picture) => `data:image/png;base64,${picture.toString('base64')}`);
   return page.evaluate(
@@ -362,8 +362,7 @@ async function compare(page: Page, places: { x: number; y: number; width: number
 
 type Faces = NodeListOf<HTMLElement & { state: string }>;
 
-/** A browser gives a page 16 contexts of WebGL. */
-// Without a graphics card each face costs as much as the whole studio.
+/** A browser gives a page 16 contexts of WebGL. Without a graphics card each face costs as much as the whole studio. */
 test.runIf(everyVariant)('Package_ManyFaces_AreAllDrawnAndMove_AlsoAfterTheirContextsAreLost_AndWhenTheyAreSeenAgain', async () => {
   const count = 24;
   // All contexts of the page with the number of their textures, and the faces that say that they are not drawn.
@@ -406,12 +405,14 @@ document.addEventListener('statechange', ({ target, detail }) => detail.state ==
     /** A face that speaks changes at least at its mouth: until every one has, and none is blank. */
     const allMove = async (): Promise<void> => {
       await page.waitForFunction(() => [...(document.querySelectorAll('semblante-face') as Faces)].every(({ state }) => state === 'playing'));
-      const first = await picture();
+      let last = await picture(); // a face may still fade in
       const moved = new Set<number>();
       await expect
         .poll(
           async () => {
-            const seen = await compare(page, places, [first, await picture()]);
+            const next = await picture();
+            const seen = await compare(page, places, [last, next]);
+            last = next;
             seen.forEach(({ covered, changed }, i) => {
               if (covered > 0.25 && changed > 0.002) moved.add(i);
             });
