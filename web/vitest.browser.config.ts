@@ -10,6 +10,7 @@ export default defineConfig({
     include: ['../tests/browser/**/*.test.ts'],
     globalSetup: ['../tests/browser/support/prepare.ts'],
     environment: 'node',
+    isolate: false, // the files share a browser (support/suite.ts)
     // Each wait has a limit of its own (support/patience.ts); this ends what hangs without one, and names it.
     testTimeout: 2 * patience,
     hookTimeout: 2 * patience,

@@ -1,30 +1,20 @@
 import { mkdtempSync, readFileSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import type { Browser } from 'playwright-core';
-import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { describe, expect, test } from 'vitest';
 import { quickSet } from '@protocol/generated/mpeg4.ts';
 import { sampleHead, samplePoints } from './support/paths.ts';
-import { startServer, type RunningServer } from './support/server.ts';
-import { launch, phone, StudioPage, type Inside } from './support/studio_page.ts';
+import { phone, StudioPage, type Inside } from './support/studio_page.ts';
+import { browser, server, useStudio } from './support/suite.ts';
 
 interface Points {
   points: Record<string, { vertex: number; position: [number, number, number]; proposed?: boolean }>;
 }
 
-let server: RunningServer;
-let browser: Browser;
 const scratch = mkdtempSync(join(tmpdir(), 'semblante-points-'));
 const known = (JSON.parse(readFileSync(samplePoints, 'utf8')) as Points).points;
 
-beforeAll(async () => {
-  [server, browser] = await Promise.all([startServer(), launch()]);
-});
-
-afterAll(async () => {
-  await browser?.close();
-  await server?.stop();
-});
+useStudio();
 
 /** The points of the open head that are stored on the server. */
 async function stored(studio: StudioPage): Promise<Points['points']> {

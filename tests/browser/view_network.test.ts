@@ -1,13 +1,10 @@
-import type { Browser, Page } from 'playwright-core';
+import type { Page } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 import { shownFace, untilFace, type ShownFace } from './support/face_page.ts';
 import { BadNetwork } from './support/network.ts';
 import { eventually, patience } from './support/patience.ts';
-import { startServer, type RunningServer } from './support/server.ts';
-import { launch } from './support/studio_page.ts';
+import { browser, server, useStudio } from './support/suite.ts';
 
-let server: RunningServer;
-let browser: Browser;
 let network: BadNetwork;
 
 /** The page of the demo, by a network that can be cut. `mark` tells afterwards whether the page was loaded anew. */
@@ -22,15 +19,11 @@ async function open(): Promise<Page> {
 }
 const sameAsBefore = (page: Page): Promise<boolean> => page.evaluate(() => 'mark' in window);
 
+useStudio();
 beforeAll(async () => {
-  [server, browser] = await Promise.all([startServer(), launch()]);
   network = await BadNetwork.before(server, ['delay=20']);
 });
-afterAll(async () => {
-  await browser?.close();
-  network?.close();
-  await server?.stop();
-});
+afterAll(() => network?.close());
 
 describe('the page of a stream on a bad network', () => {
   test('NetworkGone_IsSaid_AndTheFaceComesBackByItself', async () => {

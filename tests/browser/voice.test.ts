@@ -1,22 +1,14 @@
 import { join } from 'node:path';
-import type { Browser, Page } from 'playwright-core';
-import { afterAll, afterEach, beforeAll, expect, test } from 'vitest';
+import type { Page } from 'playwright-core';
+import { afterEach, expect, test } from 'vitest';
 import { untilFace } from './support/face_page.ts';
 import { patience } from './support/patience.ts';
 import { root } from './support/paths.ts';
-import { startServer, type RunningServer } from './support/server.ts';
-import { coarse, launch } from './support/studio_page.ts';
+import { coarse } from './support/studio_page.ts';
+import { browser, server, useStudio } from './support/suite.ts';
 
 /** The page of a stream whose text the browser's own voice says. The server's voice, of tones, gives the times. */
-let server: RunningServer;
-let browser: Browser;
-beforeAll(async () => {
-  [server, browser] = await Promise.all([startServer({ demo: false, voice: join(root, 'server/voice/examples/beeps.py') }), launch()]);
-});
-afterAll(async () => {
-  await browser?.close();
-  await server?.stop();
-});
+useStudio({ demo: false, voice: join(root, 'server/voice/examples/beeps.py') });
 
 interface Inside {
   said: { text: string; lang: string; at: number }[];

@@ -8,13 +8,21 @@ import { launch } from './studio_page.ts';
 export let server: RunningServer;
 export let browser: Browser;
 
-/** Starts a server and a browser before the tests of a file, and stops them after. */
+/** A browser starts in seconds, and its graphics compile their programs anew: one serves all files, which run one after the other. */
+let started: Promise<Browser> | undefined;
+
+async function sharedBrowser(): Promise<Browser> {
+  if (!(await started)?.isConnected()) started = launch();
+  return started!;
+}
+
+/** Gives the tests of a file a server and a browser without pages, and stops and closes them after. */
 export function useStudio(options: ServerOptions = {}): void {
   beforeAll(async () => {
-    [server, browser] = await Promise.all([startServer(options), launch()]);
+    [server, browser] = await Promise.all([startServer(options), sharedBrowser()]);
   });
   afterAll(async () => {
-    await within('the browser is closed', Promise.resolve(browser?.close()));
+    await within('the pages are closed', Promise.all(browser?.contexts().map((context) => context.close()) ?? []));
     await within('the server stops', Promise.resolve(server?.stop()));
   });
 }
