@@ -266,7 +266,6 @@ export class SemblanteFace extends FaceAttributesElement {
         if (cause && show.face === null) this.tell('error', { code: cause.code, message: cause.message });
       });
       show.on('ready', () => {
-        stage.classList.add('shown');
         this.picture.classList.add('gone');
         this.update();
         this.tell('ready');
@@ -337,7 +336,7 @@ export class SemblanteFace extends FaceAttributesElement {
     this.words.className = alone ? 'alone' : '';
     this.playButton.hidden = !(this.paused && (state === 'resting' || state === 'playing'));
     this.updateSound();
-    if (alone) this.stage?.classList.remove('shown');
+    this.stage?.classList.toggle('shown', !alone && !!this.show?.face);
     this.tell('statechange', { state, message: this.message });
   }
 
