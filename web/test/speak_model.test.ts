@@ -40,6 +40,10 @@ class FakeSound {
     return Promise.resolve();
   };
   pause = (): void => void (this.paused = true);
+  load = (): void => undefined;
+  removeAttribute = (name: string): void => {
+    if (name === 'src') this.src = '';
+  };
   addEventListener = (name: string, listener: () => void): void => void this.listeners.set(name, listener);
 }
 
@@ -80,7 +84,10 @@ beforeEach(() => {
       speechTimeline: (id) => Promise.resolve(id === 's2' ? longer : timeline),
       speechPerformance: () => Promise.resolve(document),
       speechUrl: (id, file) => `/${id}/${file}`,
-      deleteSpeech: (id) => Promise.resolve(void removed.push(id)),
+      deleteSpeech: (id) => {
+        expect(sound.src, 'a sound that is removed while it is loaded').not.toBe(`/${id}/audio`);
+        return Promise.resolve(void removed.push(id));
+      },
     },
     driver,
     sound as unknown as Sound,

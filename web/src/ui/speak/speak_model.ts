@@ -9,7 +9,7 @@ import type { FaceDriver } from '../stage/face_driver.ts';
 import { t } from '../../words/words.ts';
 
 /** What the panel needs of an audio element: its clock is that of the face. */
-export type Sound = Pick<HTMLAudioElement, 'src' | 'currentTime' | 'paused' | 'play' | 'pause' | 'addEventListener'>;
+export type Sound = Pick<HTMLAudioElement, 'src' | 'currentTime' | 'paused' | 'play' | 'pause' | 'load' | 'removeAttribute' | 'addEventListener'>;
 
 export type SpeakState =
   | { kind: 'empty' }
@@ -173,10 +173,11 @@ export class SpeakModel {
 
   /** Takes the place of the first sentences. */
   private use(take: Take): void {
-    if (this.take) this.remove(this.take.speech);
+    const part = this.take;
     this.take = take;
     this.whole = null;
     this.sound.src = this.api.speechUrl(take.speech.id, 'audio');
+    if (part) this.remove(part.speech);
   }
 
   private silence(): void {
@@ -191,6 +192,9 @@ export class SpeakModel {
   }
 
   private forget(): void {
+    // First: the browser may still be loading the sound of what is removed.
+    this.sound.removeAttribute('src');
+    this.sound.load();
     if (this.take) this.remove(this.take.speech);
     this.whole?.then((take) => this.remove(take.speech), () => undefined);
     this.take = this.whole = null;
