@@ -1,14 +1,17 @@
 import { readdirSync, readFileSync } from 'node:fs';
 import { expect, test } from 'vitest';
-import { portugueseDetails } from '../src/words/portuguese_details.ts';
-import { portugueseRemarks } from '../src/words/portuguese_remarks.ts';
-import { sentenceTranslator } from '../src/words/server_sentences.ts';
+import { portugueseSentence as translate, portugueseTables } from '../src/words/portuguese_sentences.ts';
 
 const root = new URL('../../', import.meta.url);
-const sourcesIn = (folder: string): string[] =>
+interface Source {
+  file: string;
+  code: string;
+}
+const sourcesIn = (folder: string): Source[] =>
   (readdirSync(new URL(folder, root), { recursive: true, encoding: 'utf8' }) as string[])
     .filter((name) => /\.(cpp|h)$/.test(name) && !name.includes('generated'))
-    .map((name) => readFileSync(new URL(`${folder}/${name}`, root), 'utf8').replace(/^\s*(\/\/|#include).*$/gm, ''));
+    .map((name) => `${folder}/${name}`)
+    .map((file) => ({ file, code: readFileSync(new URL(file, root), 'utf8').replace(/^\s*(\/\/|#include).*$/gm, '') }));
 
 /** The string literals of C++ text in their order; those side by side are one, as for the compiler. */
 function literalsOf(code: string): string[] {
@@ -36,53 +39,143 @@ function isMadeOf(text: string, literals: ReadonlySet<string>): boolean {
 
 const piecesOf = (english: string): string[] => english.split(/\{\w+\}/).filter((piece) => piece !== '');
 
-const files = ['core', 'server', 'protocol/cpp'].flatMap(sourcesIn).map((code) => new Set(literalsOf(code)));
+/** The literals of each file; a name of C++ (`upper_teeth`) is said with blanks. */
+const files = ['core', 'server', 'protocol/cpp']
+  .flatMap(sourcesIn)
+  .map(({ code }) => new Set(literalsOf(code).flatMap((text) => (/^[a-z]+_[a-z]+$/.test(text) ? [text, text.replace('_', ' ')] : [text]))));
 
-test.each([
-  ['remark', portugueseRemarks],
-  ['detail', portugueseDetails],
-])('Sentences_Every%s_IsOneThatTheServerSays', (_, table) => {
+test.each(Object.entries(portugueseTables))('Sentences_Every%s_IsOneThatTheServerSays', (_, table) => {
   const said = (english: string): boolean => files.some((literals) => piecesOf(english).every((piece) => isMadeOf(piece, literals)));
   expect(Object.keys(table).filter((english) => !said(english))).toEqual([]);
 });
 
-/** What follows an opening bracket, up to the one that closes it. */
-function insideBrackets(code: string, from: number): string {
-  let depth = 1;
-  let at = from;
-  while (depth > 0 && at < code.length) {
-    if (code[at] === '"') at += /^"(?:[^"\\]|\\.)*"/.exec(code.slice(at))![0].length - 1;
-    else if (code[at] === '(') depth += 1;
-    else if (code[at] === ')') depth -= 1;
-    at += 1;
+test('Sentences_Tables_HaveNoSentenceTwice', () => {
+  const all = Object.values(portugueseTables).flatMap(Object.keys).map((english) => english.replace(/\{\w+\}/g, (name) => (/fault|remark|words/.test(name) ? name : '{}')));
+  expect(all.filter((english, index) => all.indexOf(english) !== index)).toEqual([]);
+});
+
+/** The parts of code between separators that are in no bracket or literal; it ends with the bracket that closes more than it opens. */
+function partsBetween(code: string, separator: RegExp, whole = /^(?!)/): string[] {
+  const parts: string[] = [];
+  let depth = 0;
+  let begin = 0;
+  let at = 0;
+  while (at < code.length) {
+    const rest = code.slice(at, at + 2000);
+    const length = (/^(?:"(?:[^"\\]|\\.)*"|'(?:[^'\\]|\\.)')/.exec(rest) ?? whole.exec(rest))?.[0].length ?? 1;
+    if (length === 1 && '({['.includes(rest[0]!)) depth += 1;
+    else if (length === 1 && ')}]'.includes(rest[0]!)) depth -= 1;
+    if (depth < 0) break;
+    if (depth === 0 && length === 1 && separator.test(rest)) {
+      parts.push(code.slice(begin, at));
+      begin = at + 1;
+    }
+    at += length;
   }
-  return code.slice(from, at - 1);
+  return [...parts, code.slice(begin, at)];
 }
 
+const argumentsFrom = (code: string, from: number): string[] => partsBetween(code.slice(from, from + 5000), /^,/);
+
+const english = Object.values(portugueseTables).flatMap(Object.keys);
+
+/** Whether a table has a sentence with these literals in their order. */
+const has = (literals: readonly string[]): boolean =>
+  english.some((sentence) => literals.reduce((from, text) => (from < 0 || !sentence.includes(text, from) ? -1 : sentence.indexOf(text, from) + text.length), 0) >= 0);
+
 test('Sentences_RemarksOfImportPointsAndRig_AllHaveATranslation', () => {
-  const english = Object.keys(portugueseRemarks);
   const remarks = ['core/import', 'core/pipeline', 'core/parametrize']
     .flatMap(sourcesIn)
-    .flatMap((code) => [...code.matchAll(/(?:\bwarn|(?:warnings|file|stance|points|rig)\.(?:push_back|emplace_back))\(/g)].map((match) => insideBrackets(code, match.index + match[0].length)))
+    .flatMap(({ code }) =>
+      [...code.matchAll(/(?:\bwarn|(?:warnings|file|stance|points|rig)\.(?:push_back|emplace_back))\(/g)].map((match) => argumentsFrom(code, match.index + match[0].length).join(',')),
+    )
     // Which of two texts is said is not known here.
     .map((argument) => literalsOf(argument.replace(/\([^()]*\?[^()]*\)/g, '')))
     .filter((literals) => literals.some((text) => text.includes(' ')));
   expect(remarks.length).toBeGreaterThan(35);
-  const has = (literals: string[]): boolean =>
-    english.some((sentence) => literals.reduce((from, text) => (from < 0 || !sentence.includes(text, from) ? -1 : sentence.indexOf(text, from) + text.length), 0) >= 0);
   expect(remarks.filter((literals) => !has(literals))).toEqual([]);
+});
+
+/** Calls that make a fault: `fail(...)`, `Error{...}`, `refuse(...)`, `make_problem(...)` and their like. */
+const faultCall = /\b(?:\w*[fF]ail\w*|\w*[eE]rror\w*|\w*[rR]efus\w*|\w*[fF]ault\w*|malformed|make_problem|too_many|unauthorized)[({]/g;
+
+/** A text of C++ in pieces: literals, and the code of what is filled in. */
+type Piece = { text: string } | { value: string };
+
+/** What an expression of C++ says: its alternatives. */
+function alternativesOf(expression: string): Piece[][] {
+  const inside = /^(?:std::string)?\((.*)\)$/s.exec(expression.trim())?.[1];
+  if (inside !== undefined && partsBetween(inside, /^,/).join(',').length === inside.length) return inside === '' ? [[{ text: '' }]] : alternativesOf(inside);
+  const branches = partsBetween(expression, /^[?:]/, /^::/).slice(1);
+  if (branches.length > 1) return branches.flatMap(alternativesOf);
+  const summands = partsBetween(expression, /^\+/);
+  if (summands.length > 1)
+    return summands.map(alternativesOf).reduce((all, next) => all.flatMap((before) => next.map((after) => [...before, ...after])));
+  const literals = literalsOf(expression);
+  return [[literals.length === 1 && /^\s*"[^]*"\s*$/.test(expression) ? { text: literals[0]! } : { value: expression.trim() }]];
+}
+
+/** The arguments of a call; pieces of one text that are passed one by one (`"vertex ", v, " moves"`) are one. */
+const textsOf = (code: string, from: number): string[] =>
+  argumentsFrom(code, from).reduce<string[]>((texts, next) => {
+    const goesOn = / "\s*$/.test(texts.at(-1) ?? '') || /^\s*"[ ,]/.test(next);
+    return goesOn && texts.length > 0 ? [...texts.slice(0, -1), `${texts.at(-1)!} + ${next}`] : [...texts, next];
+  }, []);
+
+/** Words that C++ fills in, by its expression; other values are numbers, names and sentences of the tables. */
+const filledIn: Readonly<Record<string, readonly string[]>> = {
+  'core/import/obj_reader.cpp: what': ['vertex'],
+  'core/propose/propose.cpp: missing_of_quick_set(known)': [''],
+  'core/speech/xml_tag.cpp: what': ['the tag <x>', '<x>'],
+  'protocol/cpp/performance_read.cpp: what': ['viseme'],
+  'server/api/api.cpp: known': ['this route has none'],
+  'server/api/authorization.cpp: in_words(rights)': ['the stream x'],
+  'server/api/models.cpp: what': ['one of m, dm, cm, mm and in, or null'],
+};
+
+/** Texts of faults that no user of the studio reads as they are, by their file and words. */
+const unread: readonly (readonly [fault: RegExp, why: string])[] = [
+  [/^core\/(\w+\/generate|codegen)\/|^server\/api\/codegen\//, 'a program of the build says it'],
+  [/^server\/jobs\/landlock\.cpp/, "the server's system lacks what isolates jobs: its administrator reads it"],
+  [/^server\/api\/api\.cpp: (a body|an upload)$/, 'names a file in the log'],
+  [/^core\/import\/obj_reader\.cpp: (texture coordinates$|more than )/, 'a part of a sentence that the table has with each of its words'],
+  [/^server\/recordings\/recording_writer\.cpp: a recording cannot be (written|made durable)$/, 'the reason of the system follows, with which the table has it'],
+  [/^server\/api\/token_routes\.cpp: it must be \{\}$/, 'the studio makes no tokens'],
+];
+
+/** Whether the tables translate a text, with a number or another sentence for each value. */
+function isTranslated(file: string, [first, ...rest]: readonly Piece[], before = ''): boolean {
+  if (first === undefined) return translate(before) !== null;
+  const candidates = 'text' in first ? [first.text] : (filledIn[`${file}: ${first.value}`] ?? ['7', 'is missing']);
+  return candidates.some((text) => isTranslated(file, rest, before + text));
+}
+
+const shownWithoutValues = (pieces: readonly Piece[]): string => pieces.map((piece) => ('text' in piece ? piece.text : '{}')).join('');
+
+test('Sentences_FaultsThatAUserCanMeet_AllHaveATranslation', () => {
+  const faults = ['core', 'protocol/cpp', 'server/api', 'server/http', 'server/jobs', 'server/recordings', 'server/settings', 'server/streams', 'server/voice']
+    .flatMap(sourcesIn)
+    .flatMap(({ file, code }) =>
+      [...code.matchAll(faultCall)]
+        .flatMap((call) => textsOf(code, call.index + call[0].length))
+        .flatMap(alternativesOf)
+        .map((pieces) => ({ file, pieces, words: shownWithoutValues(pieces), fault: `${file}: ${shownWithoutValues(pieces)}` })),
+    )
+    .filter(({ words }) => /\p{L} \p{L}/u.test(words) && !words.startsWith('/'));
+  expect(faults.length).toBeGreaterThan(600);
+  const isUnread = (fault: string): boolean => unread.some(([one]) => one.test(fault));
+  expect(faults.filter(({ file, pieces, fault }) => !isUnread(fault) && !isTranslated(file, pieces)).map(({ fault }) => fault)).toEqual([]);
+  expect(unread.filter(([one]) => !faults.some(({ fault }) => one.test(fault)))).toEqual([]);
 });
 
 test('Sentences_Translation_FillsInNothingThatTheServerDoesNotSay', () => {
   const names = (text: string): string[] => text.match(/\{\w+\}/g) ?? [];
-  for (const [english, text] of Object.entries({ ...portugueseRemarks, ...portugueseDetails })) {
+  for (const [english, text] of Object.values(portugueseTables).flatMap(Object.entries<string>)) {
     expect(names(english), english).toEqual(expect.arrayContaining(names(text)));
     expect(new Set(names(english)).size, english).toBe(names(english).length);
     expect(text, english).not.toMatch(/\bthe\b|[.]$| {2}/);
   }
 });
-
-const translate = sentenceTranslator({ ...portugueseRemarks, ...portugueseDetails });
 
 test.each([
   ['the axes of the head are uncertain; it keeps the axes of its file', 'os eixos da cabeça são incertos; ela fica com os do seu arquivo'],

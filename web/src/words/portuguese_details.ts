@@ -39,7 +39,6 @@ export const portugueseDetails: Sentences = {
   'is not valid JSON (byte {byte})': 'não é JSON válido (byte {byte})',
   'is missing': 'falta',
   'refers to vertex {vertex}, but there are {count}': 'cita o vértice {vertex}, mas há {count}',
-  'f refers to {what} {place}, but there are {count}': 'f cita {what} {place}, mas há {count}',
   'f has {corner} in place of a corner (v, v/vt, v//vn or v/vt/vn)': 'f tem {corner} no lugar de um canto (v, v/vt, v//vn ou v/vt/vn)',
   'not an OBJ file: it contains zero bytes, but an OBJ file is text': 'não é um arquivo OBJ: contém bytes zero, e um arquivo OBJ é texto',
   'not an OBJ statement, and the file has no faces': 'não é uma instrução de OBJ, e o arquivo não tem faces',
@@ -215,8 +214,6 @@ export const portugueseDetails: Sentences = {
   'the token is not accepted: it was never made, is revoked, or a ticket that is used up':
     'o token não é aceito: nunca foi criado, foi revogado, ou é um bilhete já usado',
   'this request needs the scope {needed}, and the token has {scope}': 'este pedido precisa do escopo {needed}, e o token tem {scope}',
-  "the token has reached its limit of {limit} {what}, of which it has used {used}: {remedy}, or ask the server's administrator for more":
-    'o token atingiu o seu limite de {limit} {what}, dos quais usou {used}: {remedy}, ou peça mais a quem administra o servidor',
   'delete models, recordings, speeches or expressions of this token': 'apague cabeças, gravações, falas ou expressões deste token',
   'delete models of this token': 'apague cabeças deste token',
   'delete streams of this token': 'apague fluxos deste token',

@@ -1,0 +1,105 @@
+import type { Sentences } from './server_sentences.ts';
+
+/** Why the server refuses a request for streams, speeches and recordings, and faults of the server itself, in Brazilian Portuguese by their English form. */
+export const portugueseStreamRequests: Sentences = {
+  // What plays into a stream.
+  'begins after the end': 'começa depois do fim',
+  'ends before it begins': 'acaba antes de começar',
+  'must be {first} or {second}': 'deve ser {first} ou {second}',
+  'the stream does not play the performance {id}': 'o fluxo não toca a performance {id}',
+  'a .fap file has its own rate': 'um arquivo .fap tem a sua própria taxa',
+  'no clip can be made: {fault}': 'não é possível fazer um clipe: {fault}',
+  'must be a number from 0 to 1': 'deve ser um número de 0 a 1',
+  'this setting cannot be read': 'esta configuração não pode ser lida',
+  'must be 1, 0.5, 0.25 or 0.125': 'deve ser 1, 0,5, 0,25 ou 0,125',
+
+  // Speeches.
+  'as many voices are speaking as the server lets speak at the same time': 'já falam tantas vozes quantas o servidor deixa falar ao mesmo tempo',
+  'as many streams are speaking as the server lets speak at the same time': 'já falam tantos fluxos quantos o servidor deixa falar ao mesmo tempo',
+  'there is no speech {id}': 'não há fala {id}',
+  'there is no such speech': 'não há esta fala',
+  'the speech has no {name}': 'a fala não tem {name}',
+  'the timeline cannot be read: {fault}': 'a linha do tempo não pode ser lida: {fault}',
+  'the speech cannot be read: {fault}': 'a fala não pode ser lida: {fault}',
+  'the sound cannot be read: {fault}': 'o som não pode ser lido: {fault}',
+  'the speech cannot be played: {fault}': 'a fala não pode ser tocada: {fault}',
+  'the server stores at most {limit} speeches: delete one': 'o servidor guarda no máximo {limit} falas: apague uma',
+  'the form has neither a part "timeline" nor a part "audio"': 'o formulário não tem a parte "timeline" nem a parte "audio"',
+  'is of a timeline, which the form does not have': 'é de uma linha do tempo, que o formulário não tem',
+  'a stored speech has it: give only one of the two': 'uma fala guardada já o tem: dê só um dos dois',
+  'the token may not read this speech': 'o token não pode ler esta fala',
+  'the server has failed': 'o servidor falhou',
+
+  // Recordings.
+  'there is no recording of a stream {id}': 'não há gravação de um fluxo {id}',
+  'there is no such recording': 'não há esta gravação',
+  'its file is missing': 'falta o seu arquivo',
+  '{remark}: {fault}': '{remark}: {fault}',
+  '{place}: {fault}': '{place}: {fault}',
+  'the recording has ended': 'a gravação acabou',
+  'the stream had no model: give ?model': 'o fluxo não tinha cabeça: dê ?model',
+  'a {format} has no rate': 'um {format} não tem taxa',
+  'the file is whole or by Range': 'o arquivo é dado inteiro ou por Range',
+  'is not for ?at': 'não serve com ?at',
+  'must be the sequence number of a frame': 'deve ser o número de sequência de um quadro',
+  'must be a number of milliseconds from 1 to 86400000': 'deve ser um número de milissegundos de 1 a 86400000',
+  "must be a number of milliseconds from 0 to the recording's duration": 'deve ser um número de milissegundos de 0 à duração da gravação',
+  'the id of the recording to be played is missing': 'falta o id da gravação a tocar',
+  'as many exports as may be made at the same time are being made; try again': 'já são feitas tantas exportações quantas podem ser feitas ao mesmo tempo; tente de novo',
+  'the disk has no room for this export: take a part': 'o disco não tem espaço para esta exportação: pegue uma parte',
+
+  // The server and its data.
+  'the server finishes what has begun and ends': 'o servidor acaba o que já começou e termina',
+  'the store does not answer': 'os dados guardados não respondem',
+  'there is no problem {name}': 'não há problema {name}',
+  'nothing is served at {path}': 'não há nada em {path}',
+  'the reason was not recorded': 'o motivo não foi registrado',
+  'the content has {bytes} bytes': 'o conteúdo tem {bytes} bytes',
+  'the ETag of the resource is {etag}': 'o ETag do recurso é {etag}',
+  '{fault}. Storing the same bytes again mends it: upload the same file, or parametrize the model again':
+    '{fault}. Guardar os mesmos bytes de novo conserta isto: envie o mesmo arquivo, ou parametrize a cabeça de novo',
+  'the stored bytes with the SHA-256 {hash} are missing': 'faltam os bytes guardados com o SHA-256 {hash}',
+  'the stored bytes with the SHA-256 {hash} are damaged': 'os bytes guardados com o SHA-256 {hash} estão danificados',
+  '{fault}, but the change is not stored yet: it will be when the disk can be written; a restart before that undoes it':
+    '{fault}, mas a mudança ainda não está guardada: ela será quando o disco puder ser escrito; um reinício antes disso a desfaz',
+  'the job is cancelled': 'o trabalho foi cancelado',
+
+  // Addresses and the form of a request.
+  'this server does not accept the host name {name} (see --allow-host)': 'este servidor não aceita o nome de host {name} (veja --allow-host)',
+  'pages from {origin} may not change anything here (see --allow-origin)': 'páginas de {origin} não podem mudar nada aqui (veja --allow-origin)',
+  'the body cannot be written: error {number}': 'o corpo não pode ser gravado: erro {number}',
+  'the request could not be served': 'o pedido não pôde ser atendido',
+  'the file cannot be read; try again later': 'o arquivo não pode ser lido; tente de novo mais tarde',
+  'the request has neither Content-Length nor chunks': 'o pedido não tem Content-Length nem partes',
+  'the header has more than {bytes} bytes, or more than {fields} fields or query parameters':
+    'o cabeçalho tem mais de {bytes} bytes, ou mais de {fields} campos ou parâmetros',
+  'the Content-Type has no usable boundary': 'o Content-Type não tem um limite (boundary) que sirva',
+  'the body does not hold the boundary of its Content-Type': 'o corpo não contém o limite (boundary) do seu Content-Type',
+  'a boundary is not followed by a line break': 'um limite (boundary) não é seguido de quebra de linha',
+  'the form has more parts than are read': 'o formulário tem mais partes do que são lidas',
+  'the header of a part does not end': 'o cabeçalho de uma parte não acaba',
+  'the last part is not closed by the boundary': 'a última parte não é fechada pelo limite (boundary)',
+
+  // Jobs.
+  'it was cancelled while it waited for the disk': 'foi cancelado enquanto esperava pelo disco',
+  'it wrote a file of more than {limit} bytes (SIGXFSZ)': 'gravou um arquivo de mais de {limit} bytes (SIGXFSZ)',
+  'its worker was stopped at a system call that no job needs (SIGSYS): the model may be made to attack the server':
+    'o seu processo foi parado numa chamada de sistema de que nenhum trabalho precisa (SIGSYS): o modelo pode ter sido feito para atacar o servidor',
+  'its worker ended by signal {number} ({name})': 'o seu processo foi encerrado pelo sinal {number} ({name})',
+  'its worker ended with code {code} and without a result': 'o seu processo terminou com o código {code} e sem resultado',
+  'its worker did not write a result that it names': 'o seu processo não gravou um resultado que ele cita',
+  'the disk had no room for what it makes, {times}': 'o disco não teve espaço para o que ele faz, {times}',
+  'what it makes could not be written, {times}': 'o que ele faz não pôde ser gravado, {times}',
+  '{number} times': '{number} vezes',
+  'the worker cannot read its request': 'o processo não consegue ler o seu pedido',
+  'an internal error: {message}': 'um erro interno: {message}',
+  'there are no weights "{name}"': 'não há pesos "{name}"',
+  'there is no metric "{name}"': 'não há métrica "{name}"',
+  'there is no such kind of job': 'não há este tipo de trabalho',
+  'there is no kind of job {name}': 'não há o tipo de trabalho {name}',
+  'the stored job cannot be read': 'o trabalho guardado não pode ser lido',
+  'the stored job cannot be read: {message}': 'o trabalho guardado não pode ser lido: {message}',
+  'the worker returned the outcome of another kind of job': 'o processo devolveu o resultado de outro tipo de trabalho',
+  '{name} cannot be written: {message}': '{name} não pode ser gravado: {message}',
+  'cannot start a worker: {message}': 'não é possível iniciar um processo: {message}',
+};
