@@ -106,5 +106,6 @@ export const portugueseGltfFaults: Sentences = {
   'has meshopt data that cannot be decoded': 'tem dados meshopt que não podem ser decodificados',
 
   // Images.
+  'is a WebP image that cannot be decoded': 'é uma imagem WebP que não pode ser decodificada',
   'is a WebP image that moves, which no texture can': 'é uma imagem WebP animada, o que uma textura não pode ser',
 };

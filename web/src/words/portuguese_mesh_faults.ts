@@ -57,20 +57,6 @@ export const portugueseMeshFaults: Sentences = {
   'has no points': 'não tem pontos',
   'no feature point has a displacement': 'nenhum ponto característico tem deslocamento',
 
-  // Points that are not proposed.
-  '{fault}; missing from the quick set: {points}': '{fault}; faltam do conjunto rápido: {points}',
-  'no reference head has this point': 'nenhuma cabeça de referência tem este ponto',
-  'the thickness of the hair cannot be derived from the face': 'a espessura do cabelo não pode ser deduzida do rosto',
-  'the model has no {role}': 'o modelo não tem {role}',
-  'left eye': 'olho esquerdo',
-  'right eye': 'olho direito',
-  'upper teeth': 'dentes superiores',
-  'lower teeth': 'dentes inferiores',
-  tongue: 'língua',
-  skin: 'pele',
-  'every vertex of the {role} already has a point': 'todo vértice desta parte ({role}) já tem um ponto',
-  'the model has no surface at the expected position': 'o modelo não tem superfície na posição esperada',
-
   // Scans and expressions.
   'must be a finite number of at least 0': 'deve ser um número finito de ao menos 0',
   'must be a number from 0.01 to 100': 'deve ser um número de 0,01 a 100',

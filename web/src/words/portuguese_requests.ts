@@ -132,6 +132,7 @@ export const portugueseRequests: Sentences = {
   'another request of this token is still being served': 'outro pedido deste token ainda está sendo atendido',
   'what another token uses is shown to tokens with the scope admin': 'o que outro token usa só é mostrado a tokens com o escopo admin',
   'delete expressions of this token': 'apague expressões deste token',
+  'wait until an upload of this token has ended': 'espere que um envio deste token acabe',
   'delete speeches of this token': 'apague falas deste token',
   "the token has reached its limit of {limit} {quota}, of which it has used {used}: {remedy}, or ask the server's administrator for more":
     'o token atingiu o seu limite de {limit} {quota}, dos quais usou {used}: {remedy}, ou peça mais a quem administra o servidor',

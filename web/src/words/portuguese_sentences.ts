@@ -7,6 +7,7 @@ import { portugueseRequests } from './portuguese_requests.ts';
 import { portugueseSpeechFaults } from './portuguese_speech_faults.ts';
 import { portugueseStreamFaults } from './portuguese_stream_faults.ts';
 import { portugueseStreamRequests } from './portuguese_stream_requests.ts';
+import { portugueseWork } from './portuguese_work.ts';
 import { sentenceTranslator, type Sentences } from './server_sentences.ts';
 
 /** The tables of the server's sentences by their subject; no sentence is in two. */
@@ -20,6 +21,7 @@ export const portugueseTables: Readonly<Record<string, Sentences>> = {
   request: portugueseRequests,
   streamRequest: portugueseStreamRequests,
   streamFault: portugueseStreamFaults,
+  work: portugueseWork,
 };
 
 /** A sentence of the server in Brazilian Portuguese; null: there is no translation. */

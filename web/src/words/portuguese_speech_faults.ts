@@ -82,6 +82,8 @@ export const portugueseSpeechFaults: Sentences = {
   'failed with exit code {code}: {fault}': 'falhou com o código de saída {code}: {fault}',
   'failed with exit code {code}: {words}': 'falhou com o código de saída {code}: {words}',
   'there is no voice: {program} is not installed': 'não há voz: {program} não está instalado',
+  '{remark}; the recognizer failed: {fault}': '{remark}; o reconhecedor falhou: {fault}',
+  '{number} of {count} words of the timeline are not in the text': '{number} de {count} palavras da linha do tempo não estão no texto',
   'there is no recognizer': 'não há reconhecedor de fala',
   'there is no voice for {language}': 'não há voz para {language}',
   'there is no voice {voice}': 'não há a voz {voice}',
@@ -96,6 +98,7 @@ export const portugueseSpeechFaults: Sentences = {
   'more is said than a text may have': 'é dito mais do que cabe num texto',
 
   // What that program answers.
+  "the voice's answer: {fault}": 'a resposta da voz: {fault}',
   'goes on after its end': 'continua depois do fim',
   'a line is too long': 'uma linha é longa demais',
   'is no tag': 'não é uma sigla de língua',

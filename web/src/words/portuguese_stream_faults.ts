@@ -3,6 +3,8 @@ import type { Sentences } from './server_sentences.ts';
 /** What a stream says to its connections, and faults of messages and of the files of a face package, in Brazilian Portuguese by their English form. */
 export const portugueseStreamFaults: Sentences = {
   // Connections.
+  'the stream has ended': 'o fluxo terminou',
+  'there are no frames': 'não há quadros',
   'the play has ended': 'a apresentação acabou',
   'no such text was sent': 'não foi enviado este texto',
   'this client gets frames: its voice is not ready': 'este cliente recebe quadros: a sua voz não está pronta',

@@ -49,6 +49,8 @@ export const portugueseStreamRequests: Sentences = {
   'the disk has no room for this export: take a part': 'o disco não tem espaço para esta exportação: pegue uma parte',
 
   // The server and its data.
+  'the data folder cannot be written': 'a pasta de dados não pode ser gravada',
+  'the disk is full': 'o disco está cheio',
   'the server finishes what has begun and ends': 'o servidor acaba o que já começou e termina',
   'the store does not answer': 'os dados guardados não respondem',
   'there is no problem {name}': 'não há problema {name}',

@@ -5,7 +5,7 @@
 export type Sentences = Readonly<Record<string, string>>;
 
 const numbers = new Set(['number', 'count', 'line']);
-const parts = new Set(['remark', 'fault', 'reason', 'stance', 'remedy', 'faps', 'pace', 'wanted', 'found', 'quota', 'role', 'times']);
+const parts = new Set(['remark', 'fault', 'reason', 'stance', 'remedy', 'faps', 'pace', 'wanted', 'found', 'quota', 'role', 'times', 'sides', 'upper', 'lower']);
 
 interface Pattern {
   shape: RegExp;

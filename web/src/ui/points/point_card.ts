@@ -8,7 +8,7 @@ import { capital } from '../shared/names.ts';
 import type { PointsModel } from './points_model.ts';
 import { proposalWords } from './proposal_words.ts';
 import { clickWord } from '../shared/click_word.ts';
-import { t } from '../../words/words.ts';
+import { serverWords, t } from '../../words/words.ts';
 
 /** The selected point: name, place and actions. In guided mode it leads through the quick set. */
 export class PointCard {
@@ -47,7 +47,7 @@ export class PointCard {
       step >= 0 ? h('p', { class: 'hint' }, quickSet[step]!.hint) : null,
       place?.proposal ? h('p', { class: 'small' }, proposalWords(place.proposal)) : null,
       !place && notProposed.has(point.id)
-        ? h('p', { class: 'small' }, t('Not proposed: {id}.', { id: notProposed.get(point.id) ?? '' }))
+        ? h('p', { class: 'small' }, t('Not proposed: {id}.', { id: serverWords(notProposed.get(point.id) ?? '') }))
         : null,
       h(
         'div',

@@ -1,5 +1,5 @@
 import type { Confidence, PointProposal } from '../../face/point_draft.ts';
-import { t } from '../../words/words.ts';
+import { serverWords, t } from '../../words/words.ts';
 
 const methods: Record<string, string> = {
   mirror: t('mirrored from the other side'),
@@ -24,6 +24,6 @@ export function proposalWords({ method, confidence, expectedError, remark }: Poi
   const sure = confidence === null ? '' : `: ${confidenceWords[confidence]}`;
   const off =
     expectedError === null ? '' : t(', expected within {expectedError} % of the eye distance', { expectedError: Math.ceil(expectedError * 100) });
-  const look = remark === undefined ? '' : t(' Look closely: {remark}.', { remark });
+  const look = remark === undefined ? '' : t(' Look closely: {remark}.', { remark: serverWords(remark) });
   return t('Proposed{how}{sure}{off}.{look}', { how, sure, off, look });
 }

@@ -1,4 +1,4 @@
-import { nameOf, t } from '../../words/words.ts';
+import { nameOf, serverWords, t } from '../../words/words.ts';
 
 /** The standard's names as readable titles. */
 
@@ -64,4 +64,4 @@ export const stageTitles: Record<string, string> = {
   store: t('Saving'),
 };
 
-export const stageTitle = (stage: string): string => stageTitles[stage] ?? capital(stage.replaceAll(/[_-]/g, ' '));
+export const stageTitle = (stage: string): string => stageTitles[stage] ?? capital(serverWords(stage).replaceAll(/[_-]/g, ' '));
