@@ -209,11 +209,39 @@ test.each([
   ['The marked eyes are 0.064000 apart: 64 mm if the unit is m; this is not certain', 'Entre os olhos marcados há 0.064000: 64 mm se a unidade é m; isto não é certo'],
   ['line 7: more values than flags: the last are dropped (3 times)', 'linha 7: mais valores que sinalizadores: os últimos não contam (3 vezes)'],
   ["there is no model $& 'a'", "não há cabeça $& 'a'"],
+  ['f refers to texture coordinate 12, but there are 3', 'f cita a coordenada de textura 12, mas há 3'],
+  ['must be a whole number, not a string', 'deve ser um número inteiro, não um texto'],
+  ['must be between 0.5 and 2', 'deve ficar entre 0.5 e 2'],
+  ['must be between 0 and 255, not -3', 'deve ficar entre 0 e 255, não -3'],
+  ['must have 3 to 5 elements, not 7', 'deve ter de 3 a 5 elementos, não 7'],
+  [
+    'the body cannot be read: is not valid JSON (byte 12, in /points/2.1)',
+    'o corpo não pode ser lido: não é JSON válido (byte 12, em /points/2.1)',
+  ],
+  ['the recording is damaged: byte 12: the checksum of the chunk is wrong', 'a gravação está danificada: byte 12: a soma de verificação do bloco está errada'],
+  ['the intensity of <emotion> must be 0 to 1 (byte 3)', 'a intensidade de <emotion> deve ser de 0 a 1 (byte 3)'],
+  ['the voice: failed with exit code 1: there is no voice for xx', 'a voz: falhou com o código de saída 1: não há voz para xx'],
+  ['the voice: failed with exit code 1: Illegal instruction', 'a voz: falhou com o código de saída 1: Illegal instruction'],
+  ['the model has no upper teeth', 'o modelo não tem dentes superiores'],
+  [
+    'the surface is too coarse here to distinguish the upper lip from the lower lip',
+    'aqui a superfície é grosseira demais para distinguir entre o lábio superior e o lábio inferior',
+  ],
+  [
+    'feature point 2.1 moves by more than 100 MNS0: check that both meshes have the same unit and the same vertex order',
+    'o ponto característico 2.1 se move mais de 100 MNS0: veja se as duas malhas têm a mesma unidade e os vértices na mesma ordem',
+  ],
+  [
+    "the token has reached its limit of 3 models, of which it has used 3: delete models of this token, or ask the server's administrator for more",
+    'o token atingiu o seu limite de 3 cabeças, dos quais usou 3: apague cabeças deste token, ou peça mais a quem administra o servidor',
+  ],
 ])('Sentences_%s_InPortuguese', (english, portuguese) => expect(translate(english)).toBe(portuguese));
 
 test('Sentences_TextOfWhichTheTableLacksAPart_HasNoTranslation', () => {
   expect(translate('Something else')).toBeNull();
   expect(translate('line 3: something else')).toBeNull();
   expect(translate('line of something else')).toBeNull();
+  expect(translate('something: something else')).toBeNull();
+  expect(translate('must be something, not something else')).toBeNull();
   expect(translate('image 3 is something else; it is omitted')).toBeNull();
 });

@@ -24,7 +24,7 @@ export const portugueseSpeechFaults: Sentences = {
   'spans nest deeper than {limit}': 'há mais de {limit} trechos uns dentro dos outros',
   'the intensity of [{tag}] must be 0 to 1': 'a intensidade de [{tag}] deve ser de 0 a 1',
   'the intensity of {tag} must be 0 to 1': 'a intensidade de {tag} deve ser de 0 a 1',
-  'the {attribute} of <{tag}> must be one of {names}': '{attribute} de <{tag}> deve ser um destes: {names}',
+  'the {attribute} of <{tag}> must be one of {names}': 'o atributo {attribute} de <{tag}> deve ser um destes: {names}',
   'the tag <{tag}> has no end': 'a tag <{tag}> não tem fim',
   'the tag <{tag}> must have name="value" alone': 'a tag <{tag}> só pode ter nome="valor"',
   'the tag <{tag}> must have its values between quotes': 'a tag <{tag}> deve ter os seus valores entre aspas',

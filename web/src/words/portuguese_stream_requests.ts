@@ -11,7 +11,7 @@ export const portugueseStreamRequests: Sentences = {
   'no clip can be made: {fault}': 'não é possível fazer um clipe: {fault}',
   'must be a number from 0 to 1': 'deve ser um número de 0 a 1',
   'this setting cannot be read': 'esta configuração não pode ser lida',
-  'must be 1, 0.5, 0.25 or 0.125': 'deve ser 1, 0,5, 0,25 ou 0,125',
+  'must be 1, 0.5, 0.25 or 0.125': 'deve ser 1; 0,5; 0,25 ou 0,125',
 
   // Speeches.
   'as many voices are speaking as the server lets speak at the same time': 'já falam tantas vozes quantas o servidor deixa falar ao mesmo tempo',
