@@ -79,6 +79,13 @@ describe('languages', () => {
     const refused = page.locator('.stage-card.error');
     await refused.getByText("não é um arquivo GLB: não começa com 'glTF'").waitFor();
     expect(await refused.innerText()).not.toMatch(english);
+    // The place in the file, and a sentence with words of the server filled in.
+    writeFileSync(join(folder, 'careta.obj'), ['v 0 0 0', 'v 1 0 0', 'v 0 1 0', 'vt 0 0', 'f 1/9 2/1 3/1'].join('\n'));
+    await studio.drop(join(folder, 'careta.obj'));
+    await refused.getByText('f cita a coordenada de textura 9, mas há 1').waitFor();
+    await refused.getByText('linha 5').waitFor();
+    expect(await refused.innerText()).not.toMatch(english);
+    await studio.keep('portuguese-refusal');
     rmSync(folder, { recursive: true });
     expect(studio.errors).toEqual([]);
     await studio.close();
