@@ -3,6 +3,7 @@ import { expect, test } from 'vitest';
 import { portugueseSentence as translate, portugueseTables } from '../src/words/portuguese_sentences.ts';
 
 const root = new URL('../../', import.meta.url);
+
 interface Source {
   file: string;
   code: string;
@@ -127,7 +128,7 @@ const unread: readonly (readonly [text: RegExp, why: string])[] = [
   [/^server\/api\/api\.cpp: (a body|an upload)$/, 'names a file in the log'],
   [/^core\/import\/obj_reader\.cpp: texture coordinates$/, 'a part of a sentence that the table has with each of its words'],
   [/^server\/recordings\/recording_writer\.cpp: a recording cannot be (written|made durable)$/, 'the reason of the system follows, with which the table has it'],
-  [/^server\/api\/token_routes\.cpp: it must be \{\}$/, 'the studio makes no tokens'],
+  [/^server\/api\/token_routes\.cpp: it must be \{\}$/, 'the studio asks only for scopes that there are'],
 ];
 
 /** Whether the tables translate a text, with a number or another sentence for each value, and leave none of its words as they were. */
