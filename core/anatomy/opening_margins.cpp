@@ -174,16 +174,26 @@ std::vector<SurfaceVertexId> skin_about(const Surface& surface, const LidEdge& l
   return skin;
 }
 
+/// Moves a site from the edge of a lid up to its fold: to `height`, the share of the way between them.
+void follow_fold(MarginSite& site, FeaturePointId edge, FeaturePointId fold, double height) {
+  site.is_edge = false;
+  const auto middle =
+      std::find_if(site.shares.begin(), site.shares.end(), [edge](const auto& s) { return s.first == edge; });
+  if (middle == site.shares.end()) return;
+  const double of_edge = (1.0 - height) * middle->second;
+  *middle = {fold, height * middle->second};
+  if (of_edge > 0.0) site.shares.emplace_back(edge, of_edge);
+}
+
 /// The fold of an upper lid: as far from the edge as its point in the middle, and ever nearer towards the corners,
-/// where it ends in the edge. It follows its point as the edge below it follows the middle of the edge.
+/// where it ends in the edge. It follows its point as the edge below it follows the middle of the edge; a vertex below
+/// the line follows both, each by its share of the way to the other.
 void add_fold_sites(const Surface& surface, const EyeEdges& eye, const LidEdge& lid, const SurfacePoint& fold,
                     std::vector<MarginSite>& sites) {
   if (surface.part_of[fold.vertex.value()] != surface.part_of[lid.middle.vertex.value()]) return;
   const glm::dvec3 from_edge = fold.position - lid.middle.position;
   const double reach = glm::length(from_edge) + glm::distance(lid.corners[0].position, lid.corners[1].position);
   const std::vector<SurfaceVertexId> skin = skin_about(surface, lid, reach);
-  LidEdge line = lid;
-  line.middle = fold;
   const LidShares shares(surface, lid, eye.lower, true);
   for (std::size_t c = 0; c < 2; ++c) {
     for (const SurfaceVertexId beside : places_on(surface, lid.to_corner[c], places_of_fold)) {
@@ -197,8 +207,10 @@ void add_fold_sites(const Surface& surface, const EyeEdges& eye, const LidEdge& 
           skin.begin(), skin.end(), [&off](SurfaceVertexId a, SurfaceVertexId b) { return off(a) < off(b); });
       if (is_on(eye.upper, vertex) || is_on(eye.lower, vertex)) continue;
       if (off(vertex) > greatest_step_to_fold * share * glm::length(from_edge)) continue;
-      sites.push_back(site_between_corners(line, vertex, edge, shares.at(c, edge)));
-      sites.back().is_edge = false;
+      const glm::dvec3 above_edge = surface.positions[vertex.value()] - edge;
+      const double height = glm::dot(above_edge, from_edge) / (share * glm::dot(from_edge, from_edge));
+      sites.push_back(site_between_corners(lid, vertex, edge, shares.at(c, edge)));
+      follow_fold(sites.back(), lid.middle.id, fold.id, std::clamp(height, 0.0, 1.0));
     }
   }
 }

@@ -28,8 +28,9 @@ struct MarginSite {
 ///   upper lid that lies in front of the lower one overlaps it, so that the eye is closed as seen from the side too.
 ///   The shares of an eye that is closed on the neutral face are an arc, which it has when it opens.
 /// - Fold of an upper lid: an arc between the corners through its point (3.13, 3.14), with the shares of the edge below
-///   it. A fold is a line; if the point were held alone, a brow near to it that rises would leave a notch there. Where
-///   no vertex is near the arc, as on coarse meshes, there is no place.
+///   it. A fold is a line; if the point were held alone, a brow near to it that rises would leave a notch there. A
+///   vertex below the arc follows the edge too, by as much as it is nearer to it: else it would stay behind the skin
+///   beside it in a blink. Where no vertex is near the arc, as on coarse meshes, there is no place.
 /// - Inner edge of a lip: linear interpolation from point to point, with the same shares for both lips, so that lips
 ///   that touch and move equally continue to touch. A vertex on the edges of both lips (a mouth that is a line of
 ///   single vertices, as on coarse heads) follows the mean of both, points at it included: if it followed the lip of

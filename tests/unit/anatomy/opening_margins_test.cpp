@@ -215,8 +215,13 @@ class Fold : public ::testing::Test {
   std::uint32_t brow_ = plate_.at(0, 2);
   std::array<std::uint32_t, 2> half_way_ = {plate_.at(-1, 1), plate_.at(1, 1)};
 
+  struct Site {
+    glm::dvec3 place;
+    double of_fold, of_edge;  ///< shares of 3.13 and 3.1
+  };
+
   /// The places on the fold, with 3.13 at a vertex of the plate.
-  std::vector<std::pair<glm::dvec3, double>> sites(std::uint32_t at) {
+  std::vector<Site> sites(std::uint32_t at) {
     const Surface surface = build_surface(plate_.model);
     const auto points = surface_points(surface, testing::points_at(plate_.model, {{"3.11", plate_.at(-2, 0)},
                                                                                   {"3.7", plate_.at(2, 0)},
@@ -224,17 +229,17 @@ class Fold : public ::testing::Test {
                                                                                   {"3.3", plate_.at(0, 0, false)},
                                                                                   {"3.13", at},
                                                                                   {"4.3", brow_}}));
-    std::vector<std::pair<glm::dvec3, double>> result;
+    std::vector<Site> result;
     for (const MarginSite& site : margin_sites(surface, points)) {
       if (site.is_edge) continue;
-      double share = 0.0;
+      Site& found = result.emplace_back(Site{surface.positions[site.vertex.value()], 0.0, 0.0});
       double sum = 0.0;
       for (const auto& [id, s] : site.shares) {
         sum += s;
-        share += id == fp("3.13") ? s : 0.0;
+        found.of_fold += id == fp("3.13") ? s : 0.0;
+        found.of_edge += id == fp("3.1") ? s : 0.0;
       }
       EXPECT_DOUBLE_EQ(sum, 1.0);
-      result.emplace_back(surface.positions[site.vertex.value()], share);
     }
     return result;
   }
@@ -244,10 +249,22 @@ class Fold : public ::testing::Test {
 TEST_F(Fold, IsAnArcFromCornerToCorner) {
   const auto found = sites(plate_.at(0, 1));
   ASSERT_EQ(found.size(), 2U);
-  for (const auto& [place, share] : found) {
-    EXPECT_EQ(std::abs(place.x), 1.0);
-    EXPECT_EQ(place.y, 0.75);
-    EXPECT_DOUBLE_EQ(share, 0.75);
+  for (const Site& site : found) {
+    EXPECT_EQ(std::abs(site.place.x), 1.0);
+    EXPECT_EQ(site.place.y, 0.75);
+    EXPECT_DOUBLE_EQ(site.of_fold, 0.75);
+    EXPECT_EQ(site.of_edge, 0.0);
+  }
+}
+
+// The skin beside it goes down with the edge in a blink.
+TEST_F(Fold, AtAVertexBelowItsLine_FollowsTheEdgeToo) {
+  bend(0.6F);  // four fifths of the way up to the line
+  const auto found = sites(plate_.at(0, 1));
+  ASSERT_EQ(found.size(), 2U);
+  for (const Site& site : found) {
+    EXPECT_NEAR(site.of_fold, 0.8 * 0.75, 1e-6);
+    EXPECT_NEAR(site.of_edge, 0.2 * 0.75, 1e-6);
   }
 }
 
