@@ -93,6 +93,15 @@ void follow_near_brows(std::vector<Displacement>& displacements, const FeaturePo
   }
 }
 
+void follow_near_corners(std::vector<Displacement>& displacements, const FeaturePointSet& points) {
+  for (const Companion& follower : cheeks_beside_near_corners(points)) {
+    Displacement* const cheek = find(displacements, follower.point);
+    const Displacement* const corner = find(displacements, follower.leader);
+    if (cheek == nullptr || corner == nullptr) continue;
+    cheek->value += follower.share * (corner->value - cheek->value);
+  }
+}
+
 void keep_lids_shut(std::vector<Displacement>& displacements) {
   for (const mpeg4::Opening& opening : mpeg4::openings) {
     if (opening.is_mouth) continue;
@@ -123,6 +132,7 @@ ModelDisplacements on_face(const DisplacementSet& set, const Fapu& fapu, const F
   if (set.meets_upper_teeth) reach_upper_teeth(result.displacements, points);
   if (set.of_library) {
     follow_near_brows(result.displacements, points);
+    follow_near_corners(result.displacements, points);
     if (fapu.origin[static_cast<std::size_t>(FapuUnit::irisd)] == FapuOrigin::closed_eyes)
       keep_lids_shut(result.displacements);
   }

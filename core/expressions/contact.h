@@ -32,6 +32,10 @@ inline constexpr double most_to_teeth = 2.5;
 /// the set moves both up or both down: the fold of the library's sets is that of faces whose brows are far.
 void follow_near_brows(std::vector<Displacement>& displacements, const FeaturePointSet& points);
 
+/// Moves a cheek partly as the near corner of the mouth beside it (`cheeks_beside_near_corners`), where the set moves
+/// both: the cheeks of the library's sets are far from the corners.
+void follow_near_corners(std::vector<Displacement>& displacements, const FeaturePointSet& points);
+
 /// Lids do not open (3.1 and 3.2 not up, 3.3 and 3.4 not down): eyes that are closed on the neutral face stay so in
 /// expressions, which would open them to a slit. FAPs 19 to 22 open them.
 void keep_lids_shut(std::vector<Displacement>& displacements);
@@ -40,7 +44,8 @@ void keep_lids_shut(std::vector<Displacement>& displacements);
 std::vector<Displacement> articulated(const DisplacementSet& set, double articulation);
 
 /// A displacement set on one head: in model units, articulated, scaled to meet the teeth if the set does, stopped at
-/// contact. If it is of the library, folds of lids go along with near brows, and closed eyes stay closed.
+/// contact. If it is of the library, folds of lids go along with near brows, cheeks with near corners of the mouth, and
+/// closed eyes stay closed.
 ModelDisplacements on_face(const DisplacementSet& set, const Fapu& fapu, const FeaturePointSet& points,
                            const std::optional<LipGaps>& gaps = std::nullopt, double articulation = usual_articulation);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include "core/expressions/contact.h"
@@ -81,6 +82,59 @@ TEST(FollowNearBrows, IsOfTheLibraryAlone) {
   set.of_library = true;
   EXPECT_FLOAT_EQ(on_face(set, fapu, eye(3.0F, 3.0F)).displacements[0].value.y, -0.4F);
   for (const DisplacementSet& expression : expression_library()) EXPECT_TRUE(expression.of_library) << expression.name;
+}
+
+/// A mouth six wide, and a cheek `beside` the left corner.
+FeaturePointSet cheek(float beside) {
+  return {{testing::fp("5.1"), VertexId(0), {3.0F, 0.0F, -beside}},
+          {testing::fp("8.3"), VertexId(0), {3.0F, 0.0F, 0.0F}},
+          {testing::fp("8.4"), VertexId(0), {-3.0F, 0.0F, 0.0F}}};
+}
+
+/// The shares of the corner that the cheek follows, by the table and beside a near corner, in sum.
+float share_of_corner(const FeaturePointSet& points) {
+  float share = 0.0F;
+  for (const Companion& c : companions_of(points))
+    share += c.point == testing::fp("5.1") && c.leader == testing::fp("8.3") ? c.share : 0.0F;
+  return share;
+}
+
+TEST(CheeksBesideNearCorners, FollowWhatTheTableLeaves_TheMoreTheNearer) {
+  const float far = share_of_corner(cheek(2.0F));
+  ASSERT_GT(far, 0.0F);
+  EXPECT_NEAR(share_of_corner(cheek(1.0F)), far + 0.5F * (1.0F - far), 1e-6F);
+  EXPECT_NEAR(share_of_corner(cheek(0.0F)), 1.0F, 1e-6F);
+}
+
+TEST(CheeksBesideNearCorners, NeedBothCorners) {
+  FeaturePointSet points = cheek(1.0F);
+  points.pop_back();
+  EXPECT_TRUE(cheeks_beside_near_corners(points).empty());
+}
+
+// Of the difference of their displacements as much is left as of the distance: the skin between them is stretched as
+// beside a far corner.
+TEST(FollowNearCorners, MovesACheekTowardsTheCornersDisplacement) {
+  const auto cheek_after = [](float beside) {
+    std::vector<Displacement> displacements = {{testing::fp("5.1"), {0.0F, 1.0F, 2.0F}},
+                                               {testing::fp("8.3"), {4.0F, 5.0F, -2.0F}}};
+    follow_near_corners(displacements, cheek(beside));
+    EXPECT_EQ(displacements[1].value, glm::vec3(4.0F, 5.0F, -2.0F));
+    return displacements[0].value;
+  };
+  EXPECT_EQ(cheek_after(2.0F), glm::vec3(0.0F, 1.0F, 2.0F));
+  EXPECT_NEAR(glm::distance(cheek_after(0.5F), glm::vec3(3.0F, 4.0F, -1.0F)), 0.0F, 1e-6F);
+}
+
+TEST(FollowNearCorners, IsOfTheLibraryAlone) {
+  const std::vector<Displacement> displacements = {{testing::fp("5.1"), {0.0F, 0.0F, 0.0F}},
+                                                   {testing::fp("8.3"), {0.0F, 1.0F, 0.0F}}};
+  Fapu fapu;
+  fapu.value.fill(1.0);
+  DisplacementSet set{"joy", displacements};
+  EXPECT_EQ(on_face(set, fapu, cheek(0.5F)).displacements[0].value.y, 0.0F);
+  set.of_library = true;
+  EXPECT_FLOAT_EQ(on_face(set, fapu, cheek(0.5F)).displacements[0].value.y, 0.75F);
 }
 
 TEST(KeepLidsShut, StopsWhatOpensThemAlone) {
