@@ -13,7 +13,8 @@ namespace semblante {
 using Places = std::array<std::optional<glm::dvec3>, feature_point_count>;
 
 /// Applies MPEG-4's position relations to `place` of point `id`, if the related points are in `settled`: half way
-/// between two points along one axis, or level with another.
+/// between two points along one axis, or level with another. The lower lip is nearly as high half way along it as in
+/// its middle.
 glm::dvec3 apply_relations(FeaturePointId id, glm::dvec3 place, const Places& settled);
 
 /// Whether a relation is known for that point.

@@ -16,6 +16,17 @@ TEST(Relations, PutALipPointHalfWayBetweenMiddleAndCorner) {
   EXPECT_EQ(apply_relations(fp("2.6"), {0.3, 0.95, 1.9}, settled), glm::dvec3(0.2, 0.95, 1.9));
 }
 
+// A lip of height 1 in its middle.
+TEST(Relations, KeepTheContourOfAHighLowerLipBelowItsEdge) {
+  Places settled;
+  settled[fp("2.3").value()] = glm::dvec3(0.0, 0.0, 2.0);
+  settled[fp("8.2").value()] = glm::dvec3(0.0, -1.0, 2.0);
+  settled[fp("2.8").value()] = glm::dvec3(0.5, 0.25, 1.5);
+  EXPECT_EQ(apply_relations(fp("8.7"), {0.5, 0.2, 1.5}, settled), glm::dvec3(0.5, 0.25 - 0.7, 1.5));
+  EXPECT_EQ(apply_relations(fp("8.7"), {0.5, -0.6, 1.5}, settled), glm::dvec3(0.5, -0.6, 1.5));
+  EXPECT_EQ(apply_relations(fp("8.8"), {-0.5, 0.2, 1.5}, settled), glm::dvec3(-0.5, 0.2, 1.5)) << "2.9 is not known";
+}
+
 TEST(Relations, LeaveAPlaceAloneWhoseNeighboursAreNotKnown) {
   Places settled;
   settled[fp("2.2").value()] = glm::dvec3(0.0, 1.0, 2.0);
