@@ -25,16 +25,17 @@ struct Fade {
   double rim;
   double length;
 };
-constexpr Fade mouth_fade = {0.20, 0.22};
-/// The back of a lip is continuous with its front up to this depth.
-constexpr double lip = 0.10;
+constexpr Fade mouth_fade = {0.30, 0.13};
+/// The back of a lip, to this depth, follows the points around it as its front does, less with the depth, and smoothly
+/// within `length`.
+constexpr struct { double depth = 0.35, length = 0.10; } lip;
 constexpr Fade socket_fade = {0.05, 0.055};
 /// The flesh between the inside of the mouth and the skin in front of it, in ES0: up to `thin` the inside follows that
 /// skin by `lower` below the mouth's middle line and by `upper` above it, where it lies on the skull; beyond `thick`
 /// not.
 constexpr struct {
-  double thin = 0.2, thick = 0.5;
-  double lower = 0.7, upper = 0.1;
+  double thin = 0.2, thick = 0.8;
+  double lower = 0.8, upper = 0.15;
   double below = -0.15, above = 0.1;  ///< where the one becomes the other, from the corners of the mouth
 } flesh;
 /// Sweeps end when no weight changes by more; the start is close to the solution. What they leave depends on the order
@@ -51,6 +52,7 @@ class Diffusion {
   Diffusion(const Surface& surface, const Cavity& cavity, double unit, const RowOfVertex& row_of)
       : surface_(surface), cavity_(cavity), unit_(unit) {
     find_links();
+    find_distances();
     find_goals();
     find_columns(row_of);
     start(row_of);
@@ -64,8 +66,6 @@ class Diffusion {
     }
   }
 
-  /// The distance of a member from the rim along edges, in ES0.
-  [[nodiscard]] double depth(std::size_t member) const { return distance_[member]; }
   [[nodiscard]] WeightRow row(std::size_t member) const {
     WeightRow row{};
     for (std::size_t c = 0; c < ids_.size(); ++c) row[ids_[c]] = rows_[member * blocks_ + c / columns][c % columns];
@@ -108,6 +108,37 @@ class Diffusion {
       link_offsets_.push_back(static_cast<std::uint32_t>(links_.size()));
     }
   }
+
+  /// The distances of the members from the rim along edges, in ES0, and the vertex of the rim that each is nearest to.
+  void find_distances() {
+    const std::size_t members = cavity_.members.size();
+    distance_.assign(members, std::numeric_limits<double>::infinity());
+    from_.resize(members);
+    using Entry = std::pair<double, std::uint32_t>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+    const auto lower = [&](std::uint32_t m, double to, std::uint32_t row) {
+      if (to >= distance_[m]) return;
+      distance_[m] = to;
+      from_[m] = row;
+      queue.emplace(to, m);
+    };
+    for (std::uint32_t m = 0; m < members; ++m) {
+      for (const Link& link : links_of(m)) {
+        if (link.row >= members) lower(m, link.length, link.row);
+      }
+    }
+    while (!queue.empty()) {
+      const auto [to, m] = queue.top();
+      queue.pop();
+      if (to > distance_[m]) continue;
+      order_.push_back(m);
+      for (const Link& link : links_of(m)) {
+        if (link.row < members) lower(link.row, to + link.length, from_[m]);
+      }
+    }
+  }
+
+  [[nodiscard]] bool is_on_lip(std::size_t member) const { return cavity_.is_mouth && distance_[member] < lip.depth; }
 
   /// What each member of the mouth would follow far from the rim: the skin in front of it, if that is near, and the
   /// jaw.
@@ -159,7 +190,7 @@ class Diffusion {
     return skin;
   }
 
-  /// The points that any row can have: those of the rim and of the skin in front, and the jaw's.
+  /// The points that any row can have: those of the rim, the back of the lips and the skin in front, and the jaw's.
   void find_columns(const RowOfVertex& row_of) {
     std::array<bool, feature_point_count> used{};
     const auto use = [&](const WeightRow& row) {
@@ -167,6 +198,9 @@ class Diffusion {
     };
     for (const SurfaceVertexId v : rim_) use(row_of(v));
     for (const SurfaceVertexId v : in_front_) use(row_of(v));
+    for (std::size_t m = 0; m < cavity_.members.size(); ++m) {
+      if (is_on_lip(m)) use(row_of(cavity_.members[m]));
+    }
     if (cavity_.is_mouth) used[jaw_point()] = true;
     for (std::size_t id = 0; id < used.size(); ++id) {
       if (used[id]) ids_.push_back(id);
@@ -197,39 +231,28 @@ class Diffusion {
     sums_.resize(blocks_);
     for (std::size_t r = 0; r < rim_.size(); ++r) read_row(row_of(rim_[r]), members + r, rows_);
     for (std::size_t m = 0; m < goals_.size(); ++m) read_row(row_of_goal(goals_[m], row_of), m, own_);
-    distance_.assign(members, std::numeric_limits<double>::infinity());
-    std::vector<std::uint32_t> from(members);
-    using Entry = std::pair<double, std::uint32_t>;
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-    const auto lower = [&](std::uint32_t m, double to, std::uint32_t row) {
-      if (to >= distance_[m]) return;
-      distance_[m] = to;
-      from[m] = row;
-      queue.emplace(to, m);
-    };
-    for (std::uint32_t m = 0; m < members; ++m) {
-      for (const Link& link : links_of(m)) {
-        if (link.row >= members) lower(m, link.length, link.row);
-      }
-    }
-    while (!queue.empty()) {
-      const auto [to, m] = queue.top();
-      queue.pop();
-      if (to > distance_[m]) continue;
-      order_.push_back(m);
-      for (const Link& link : links_of(m)) {
-        if (link.row < members) lower(link.row, to + link.length, from[m]);
-      }
-    }
     const Fade& fade = cavity_.is_mouth ? mouth_fade : socket_fade;
     pull_.resize(members);
     for (const std::uint32_t m : order_) {
       pull_[m] = static_cast<float>(smooth_step(0.0, fade.rim, distance_[m]) / (4.0 * fade.length * fade.length));
+      if (is_on_lip(m)) pull_to_front(m, row_of(cavity_.members[m]));
       const auto rim_share = static_cast<float>(std::exp(-std::max(0.0, distance_[m] - fade.rim / 2.0) / fade.length));
       for (std::size_t b = 0; b < blocks_; ++b) {
-        rows_[m * blocks_ + b] = rim_share * rows_[from[m] * blocks_ + b] + (1.0F - rim_share) * own_[m * blocks_ + b];
+        rows_[m * blocks_ + b] = rim_share * rows_[from_[m] * blocks_ + b] + (1.0F - rim_share) * own_[m * blocks_ + b];
       }
     }
+  }
+
+  /// Adds the pull of a member of the back of a lip towards the row of its place among the points.
+  void pull_to_front(std::uint32_t m, const WeightRow& in_front) {
+    const auto more =
+        static_cast<float>((1.0 - smooth_step(0.0, lip.depth, distance_[m])) / (4.0 * lip.length * lip.length));
+    const float share = more / (pull_[m] + more);
+    for (std::size_t c = 0; c < ids_.size(); ++c) {
+      float& own = own_[m * blocks_ + c / columns][static_cast<int>(c % columns)];
+      own += share * (static_cast<float>(in_front[ids_[c]]) - own);
+    }
+    pull_[m] += more;
   }
 
   /// Solves the equation of one member for its own row; the greatest change of a weight.
@@ -272,9 +295,10 @@ class Diffusion {
   std::vector<Goal> goals_;       ///< of the members of a mouth
   std::vector<SurfaceVertexId> in_front_;
   std::vector<double> distance_;      ///< of the members from the rim
-  std::vector<float> pull_;           ///< of the members, towards their own rows
+  std::vector<std::uint32_t> from_;   ///< the row of the rim's vertex that each member is nearest to
+  std::vector<float> pull_;           ///< of the members, towards own_
   std::vector<Block> rows_;           ///< members and rim
-  std::vector<Block> own_;            ///< what the members follow far from the rim
+  std::vector<Block> own_;            ///< what the members are pulled to
   std::vector<std::uint32_t> order_;  ///< members, from the rim inwards
   std::vector<Block> sums_;
 };
@@ -288,11 +312,6 @@ WeightTable<double> cavity_rows(const Surface& surface, const Cavity& cavity, do
   std::vector<std::size_t> order;
   for (std::size_t m = 0; m < cavity.members.size(); ++m) {
     WeightRow row = diffusion.row(m);
-    if (const double depth = diffusion.depth(m); cavity.is_mouth && depth < lip) {
-      const double share = smooth_step(0.0, lip, depth);
-      const WeightRow& in_front = row_of(cavity.members[m]);
-      for (std::size_t id = 0; id < row.size(); ++id) row[id] = share * row[id] + (1.0 - share) * in_front[id];
-    }
     keep_greatest(row, order);
     push_row(rows, row);
   }
