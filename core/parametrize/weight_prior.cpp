@@ -38,15 +38,31 @@ const WeightRow& edge_points() {
   return marked;
 }
 
+bool is_of_eyes_or_brows(std::size_t id) {
+  const std::string_view name = mpeg4::feature_points[id].id;
+  return name.starts_with("3.") || name.starts_with("4.");
+}
+
 }  // namespace
 
 bool WeightPrior::allows(std::size_t i, std::size_t j) {
+  if (j >= first_product && is_of_eyes_or_brows(i)) return false;
   if (j >= first_axis) return edge_points()[i] == 0.0;
   return std::none_of(mpeg4::openings.begin(), mpeg4::openings.end(),
                       [&](const mpeg4::Opening& o) { return on_edge(o, i) && on_edge(o, j); });
 }
 
 std::size_t WeightPrior::mirrored(std::size_t id) { return id >= root ? id : mpeg4::feature_points[id].mirror; }
+
+double WeightPrior::sign_of_image(std::size_t j) {
+  constexpr std::array<std::size_t, 3> odd = {first_axis, first_product + 3, first_product + 4};
+  return std::find(odd.begin(), odd.end(), j) != odd.end() ? -1.0 : 1.0;
+}
+
+WeightPrior::OffsetTerms WeightPrior::offset_terms(const glm::dvec3& offset) {
+  const glm::dvec3 u = offset / offset_unit;
+  return {u.x, u.y, u.z, u.x * u.x, u.y * u.y, u.z * u.z, u.x * u.y, u.x * u.z, u.y * u.z};
+}
 
 double WeightPrior::share_off_edges(const WeightRow& row) {
   const double on_edges = std::inner_product(row.begin(), row.end(), edge_points().begin(), 0.0);
@@ -104,10 +120,8 @@ void WeightPrior::correct(WeightRow& row, const glm::dvec3& position, const Plac
       if (places[i].vertex != places[ids[b]].vertex) add(i, ids[b], shares[a] * shares[b]);
     }
     if (sum < 1.0) add(i, root, shares[a] * (1.0 - sum) * sum);
-    const glm::dvec3 offset = (position - places[i].position) / offset_unit;
-    for (int axis = 0; axis < 3; ++axis) {
-      add(i, first_axis + static_cast<std::size_t>(axis), shares[a] * offset[axis] * off_edges);
-    }
+    const OffsetTerms terms = offset_terms(position - places[i].position);
+    for (std::size_t t = 0; t < terms.size(); ++t) add(i, first_axis + t, shares[a] * terms[t] * off_edges);
   }
   double corrected = 0.0;
   for (std::size_t id = 0; id < row.size(); ++id) {

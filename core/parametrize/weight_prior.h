@@ -17,27 +17,30 @@ namespace semblante {
 /// of the head. The prior is a table over these coordinates: where points i and j share a vertex, the weight of point k
 /// is off by c_ijk, so
 ///
-///     d_k = sum over pairs of g_i g_j c_ijk + e sum over points and axes of g_i x_ia c_iak
+///     d_k = sum over pairs of g_i g_j c_ijk + e sum over points and offset terms of g_i x_ia c_iak
 ///     w_k = g_k + d_k                 where d_k is positive
 ///     w_k = g_k^2 / (g_k - d_k)       where it is negative: the same slope at zero, and never below zero
 ///
 /// scaled to a sum of one if it is more. The share of the root, 1 - sum g, is one more i or j, times sum g, so that a
 /// correction ends more gently than the weights do. x_ia is the offset of the vertex from point i along an axis of the
-/// head: skin on one side of a point moves otherwise than on the other, as at the hair line. e is the share of the
-/// points that lie on no edge of a lip or lid, and such points alone have axes. So the correction is as smooth as the
+/// head, or the product of two such offsets: skin on one side of a point moves otherwise than on the other, as at the
+/// hair line, and skin in one direction, as behind the chin in the middle of the throat. e is the share of the points
+/// that lie on no edge of a lip or lid, and such points alone have offset terms, those of eyes and brows without
+/// products. So the correction is as smooth as the
 /// weights themselves, is zero at the points, and fades out where a head has no such points. Pairs on the edge of one
 /// lip or lid have none: the edges stay as opening_margins.h makes them.
 class WeightPrior {
  public:
   /// c_ijk of one table row and of its mirror image.
   struct Entry {
-    std::uint8_t i, j;  ///< ids of feature points; j may be `root` or an axis
+    std::uint8_t i, j;  ///< ids of feature points; j may be `root` or an offset term
     std::uint8_t k;     ///< id of a feature point
     std::int16_t hundredths;
   };
   static constexpr std::size_t root = feature_point_count;
-  static constexpr std::size_t first_axis = root + 1;  ///< x; y and z follow
-  static constexpr std::size_t column_count = first_axis + 3;
+  static constexpr std::size_t first_axis = root + 1;           ///< x; y and z follow
+  static constexpr std::size_t first_product = first_axis + 3;  ///< xx; yy, zz, xy, xz and yz follow
+  static constexpr std::size_t column_count = first_product + 6;
   /// Offsets from a point are multiples of this, in ES0.
   static constexpr double offset_unit = 1.0 / 3.0;
 
@@ -57,13 +60,16 @@ class WeightPrior {
   /// place get weight. Pairs of points at one place have no correction: their vertex follows both equally.
   void correct(WeightRow& row, const glm::dvec3& position, const Places& places) const;
 
-  /// Whether the table may correct this pair; false for pairs on the edge of one lip or lid, and for axes of its
-  /// points.
+  /// Whether the table may correct this pair; false for pairs on the edge of one lip or lid, for offset terms of its
+  /// points, and for products of offsets from points of eyes and brows.
   static bool allows(std::size_t i, std::size_t j);
-  /// The point on the other side, or the same; root and axes are their own images.
+  /// The point on the other side, or the same; root and offset terms are their own images.
   static std::size_t mirrored(std::size_t id);
-  /// -1 for the axis that points the other way on the other side, 1 for all else.
-  static double sign_of_image(std::size_t j) { return j == first_axis ? -1.0 : 1.0; }
+  /// -1 for the offset terms that are negative on the other side, x, xy and xz, 1 for all else.
+  static double sign_of_image(std::size_t j);
+  using OffsetTerms = std::array<double, column_count - first_axis>;
+  /// x_ia of every a, from the offset of a vertex from point i, in ES0.
+  static OffsetTerms offset_terms(const glm::dvec3& offset);
   /// The share of the points that lie on no edge of a lip or lid; `row` has a sum of at most one.
   static double share_off_edges(const WeightRow& row);
 

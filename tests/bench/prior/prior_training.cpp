@@ -14,7 +14,7 @@ namespace {
 
 constexpr double table_ridge = 1e-5;
 /// More, since offsets do not end where weights change their neighbours: less fits the own head better, others worse.
-constexpr double axis_ridge = 3e-5;
+constexpr double offset_ridge = 3e-5;
 constexpr double roughness_ridge = 1.0;
 /// Against sums over one, which WeightPrior scales down.
 constexpr double sum_penalty = 1e-3;
@@ -28,7 +28,7 @@ constexpr auto point_count = static_cast<Eigen::Index>(feature_point_count);
 using Matrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 struct Pair {
-  std::size_t i, j;  ///< i < j; j may be root or an axis
+  std::size_t i, j;  ///< i < j; j may be root or an offset term
 };
 
 /// One head, reduced to what the fit needs.
@@ -169,10 +169,10 @@ class Fit {
       if (j <= WeightPrior::root) column.array() *= all.col(static_cast<Eigen::Index>(j)).array();
       if (j == WeightPrior::root) column.array() *= 1.0F - all.col(point_count).array();
       if (j < WeightPrior::first_axis) continue;
-      const auto axis = static_cast<int>(j - WeightPrior::first_axis);
       for (std::size_t m = 0; m < off_edges.size(); ++m) {
-        const double offset = (lesson.positions[m] - lesson.point_positions[i])[axis] / WeightPrior::offset_unit;
-        column(static_cast<Eigen::Index>(m)) *= static_cast<float>(offset * off_edges[m]);
+        const WeightPrior::OffsetTerms terms =
+            WeightPrior::offset_terms(lesson.positions[m] - lesson.point_positions[i]);
+        column(static_cast<Eigen::Index>(m)) *= static_cast<float>(terms[j - WeightPrior::first_axis] * off_edges[m]);
       }
     }
   }
@@ -196,16 +196,16 @@ class Fit {
       }
     }
     for (std::size_t i = 0; i < feature_point_count; ++i) {
-      for (std::size_t axis = WeightPrior::first_axis; axis < WeightPrior::column_count; ++axis) {
+      for (std::size_t term = WeightPrior::first_axis; term < WeightPrior::column_count; ++term) {
         const double used = both(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i));
-        if (used > least_pair && WeightPrior::allows(i, axis)) pairs_.push_back({i, axis});
+        if (used > least_pair && WeightPrior::allows(i, term)) pairs_.push_back({i, term});
       }
     }
     mask_ = Matrix::Zero(static_cast<Eigen::Index>(pairs_.size()), point_count);
     ridge_.resize(mask_.rows());
     for (std::size_t p = 0; p < pairs_.size(); ++p) {
       const bool is_offset = pairs_[p].j >= WeightPrior::first_axis;
-      ridge_[static_cast<Eigen::Index>(p)] = static_cast<float>(is_offset ? axis_ridge : table_ridge);
+      ridge_[static_cast<Eigen::Index>(p)] = static_cast<float>(is_offset ? offset_ridge : table_ridge);
       for (Eigen::Index k = 0; k < point_count; ++k) {
         for (const std::size_t of : {pairs_[p].i, pairs_[p].j}) {
           const bool near = of < WeightPrior::root && both(static_cast<Eigen::Index>(of), k) > least_target;

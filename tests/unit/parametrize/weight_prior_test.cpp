@@ -77,6 +77,30 @@ TEST(WeightPrior, TurnsOffsetsToTheSideRoundOnTheOtherSide) {
   EXPECT_NEAR(corrected(prior, row_of({{"4.4", 0.4}}), places, right)[id("4.6")], 0.2, 1e-12);
 }
 
+TEST(WeightPrior, ActsAlikeOnBothSidesOfAPointByTheSquareOfTheOffset) {
+  const auto back = static_cast<std::uint8_t>(WeightPrior::first_product + 2);
+  const WeightPrior::Entry table[] = {{id("2.1"), back, id("2.1"), 50}};
+  const WeightPrior prior{table};
+  const WeightPrior::Places places = all_apart();
+  const glm::dvec3 point = places[id("2.1")].position;
+  for (const double z : {-1.0, 1.0}) {
+    const glm::dvec3 there = point + glm::dvec3(0.0, 0.0, z * WeightPrior::offset_unit);
+    EXPECT_NEAR(corrected(prior, row_of({{"2.1", 0.4}}), places, there)[id("2.1")], 0.6, 1e-12);
+  }
+}
+
+TEST(WeightPrior, TurnsProductsWithTheOffsetToTheSideRoundOnTheOtherSide) {
+  const auto across_and_back = static_cast<std::uint8_t>(WeightPrior::first_product + 4);
+  const WeightPrior::Entry table[] = {{id("2.11"), across_and_back, id("2.13"), 50}};
+  const WeightPrior prior{table};
+  const WeightPrior::Places places = all_apart();
+  const glm::dvec3 unit(WeightPrior::offset_unit);
+  const glm::dvec3 left = places[id("2.11")].position + unit;
+  const glm::dvec3 right = places[id("2.12")].position + unit * glm::dvec3(-1.0, 1.0, 1.0);
+  EXPECT_NEAR(corrected(prior, row_of({{"2.11", 0.4}}), places, left)[id("2.13")], 0.2, 1e-12);
+  EXPECT_NEAR(corrected(prior, row_of({{"2.12", 0.4}}), places, right)[id("2.14")], 0.2, 1e-12);
+}
+
 TEST(WeightPrior, KeepsWeightsPositiveAndSumsAtMostOne) {
   const WeightPrior::Entry table[] = {{id("4.1"), id("4.3"), id("4.1"), -900}, {id("4.1"), id("4.3"), id("4.5"), 900}};
   const WeightRow row = corrected(WeightPrior{table}, row_of({{"4.1", 0.5}, {"4.3", 0.5}}));
@@ -104,6 +128,8 @@ TEST(WeightPrior, LeavesTheEdgesOfLipsAndLidsAlone) {
   EXPECT_TRUE(WeightPrior::allows(id("3.1"), id("2.4")));
   EXPECT_FALSE(WeightPrior::allows(id("3.1"), WeightPrior::first_axis));
   EXPECT_TRUE(WeightPrior::allows(id("4.1"), WeightPrior::first_axis));
+  EXPECT_FALSE(WeightPrior::allows(id("4.1"), WeightPrior::first_product));
+  EXPECT_TRUE(WeightPrior::allows(id("2.1"), WeightPrior::first_product));
   for (const auto& edge : {row_of({{"2.2", 0.6}, {"2.6", 0.4}}), row_of({{"3.1", 0.3}, {"3.7", 0.7}})}) {
     EXPECT_EQ(corrected(trained_weight_prior(), edge, all_apart(), glm::dvec3(0.5)), edge);
   }
