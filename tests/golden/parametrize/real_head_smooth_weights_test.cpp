@@ -84,14 +84,14 @@ TEST(RealExpressions_SmoothWeights, AreCloserToAFaceByThePriorOfOthers) {
 
   const bench::Figures ict_alone = figures_of(ict, {});
   const bench::Figures makehuman_alone = figures_of(makehuman, {});
-  EXPECT_LE(ict_alone.error, 0.131);
+  EXPECT_LE(ict_alone.error, 0.128);
   EXPECT_LE(makehuman_alone.error, 0.242);
 
   const bench::Figures strange = figures_of(ict, WeightPrior(without_ict));
-  EXPECT_LE(strange.error, 0.124);
+  EXPECT_LE(strange.error, 0.121);
   EXPECT_LE(strange.roughness, 0.008);
   const bench::Figures other_shapes = figures_of(ict, WeightPrior(without_measured));
-  EXPECT_LE(other_shapes.error, 0.108);
+  EXPECT_LE(other_shapes.error, 0.100);
   EXPECT_LE(other_shapes.visible_error, 0.08);
   EXPECT_LE(other_shapes.roughness, 0.008);
   const bench::Figures other_head = figures_of(makehuman, WeightPrior(without_makehuman));
@@ -110,10 +110,10 @@ TEST(RealExpressions_FittedWeights, AreCloserToAFaceByItsOtherShapes) {
   const bench::FittedShares fitted = bench::fitted_shares(measured, others, WeightPrior(without_measured));
 
   const bench::Figures figures = bench::measure(measured, fitted.shares);
-  EXPECT_LE(figures.error, 0.099);
-  EXPECT_LE(figures.visible_error, 0.077);
+  EXPECT_LE(figures.error, 0.096);
+  EXPECT_LE(figures.visible_error, 0.076);
   expect_smooth(figures);
-  EXPECT_LT(fitted.fit.error(), 0.96 * fitted.fit.smooth_error());
+  EXPECT_LT(fitted.fit.error(), 0.97 * fitted.fit.smooth_error());
 }
 
 TEST(RealExpressions_FittedWeights, AreCloserThanSmoothOnesInShapesLeftOut) {
