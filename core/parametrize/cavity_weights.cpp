@@ -14,6 +14,7 @@
 
 #include "core/anatomy/smooth_step.h"
 #include "core/geometry/nearest_point.h"
+#include "core/geometry/sparse_cholesky.h"
 #include "core/parametrize/greatest_weights.h"
 
 namespace semblante {
@@ -38,13 +39,6 @@ constexpr struct {
   double lower = 0.8, upper = 0.15;
   double below = -0.15, above = 0.1;  ///< where the one becomes the other, from the corners of the mouth
 } flesh;
-/// Sweeps end when no weight changes by more; the start is close to the solution. What they leave depends on the order
-/// of the vertices, so that it is the asymmetry of a symmetric head.
-constexpr float least_change = 3e-4F;
-constexpr int most_sweeps = 200;
-/// Steps go beyond each equation's own solution (successive over-relaxation), from the rim inwards: that converges in
-/// about a fifth of the sweeps.
-constexpr float over_relaxation = 1.6F;
 
 /// The unknown rows and the equations between them.
 class Diffusion {
@@ -59,11 +53,28 @@ class Diffusion {
   }
 
   void solve() {
-    for (int sweep = 0; sweep < most_sweeps; ++sweep) {
-      float change = 0.0F;
-      for (const std::uint32_t member : order_) change = std::max(change, relax(member));
-      if (change < least_change) break;
+    const std::size_t members = cavity_.members.size();
+    SparseMatrix matrix;
+    std::vector<glm::dvec3> positions;
+    for (std::uint32_t m = 0; m < members; ++m) {
+      const auto links = links_of(m);
+      const float pull = static_cast<float>(links.size()) * pull_[m];
+      double all = pull;
+      for (std::size_t b = 0; b < blocks_; ++b) rows_[m * blocks_ + b] *= pull;
+      for (const Link& link : links) {
+        all += link.weight;
+        if (link.row < members) {
+          matrix.entries.push_back({link.row, -link.weight});
+          continue;
+        }
+        const Block* const rim = &rim_rows_[(link.row - members) * blocks_];
+        for (std::size_t b = 0; b < blocks_; ++b) rows_[m * blocks_ + b] += link.weight * rim[b];
+      }
+      matrix.diagonal.push_back(all);
+      matrix.offsets.push_back(static_cast<std::uint32_t>(matrix.entries.size()));
+      positions.push_back(surface_.positions[cavity_.members[m].value()]);
     }
+    SparseCholesky(matrix, dissection_order(matrix, positions)).solve(rows_, blocks_);
   }
 
   [[nodiscard]] WeightRow row(std::size_t member) const {
@@ -73,12 +84,12 @@ class Diffusion {
   }
 
  private:
-  /// Neighbouring columns of a row, which a register holds together. Single precision: the sweeps end far above it.
+  /// Neighbouring columns of a row, which a register holds together.
   using Block = glm::vec4;
   static constexpr std::size_t columns = 4;
 
   struct Link {
-    std::uint32_t row;  ///< of rows_
+    std::uint32_t row;  ///< a member's, or after them one of the rim
     double length;
     float weight;  ///< 1 / length^2
   };
@@ -109,31 +120,28 @@ class Diffusion {
     }
   }
 
-  /// The distances of the members from the rim along edges, in ES0, and the vertex of the rim that each is nearest to.
+  /// The distances of the members from the rim along edges, in ES0.
   void find_distances() {
     const std::size_t members = cavity_.members.size();
     distance_.assign(members, std::numeric_limits<double>::infinity());
-    from_.resize(members);
     using Entry = std::pair<double, std::uint32_t>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-    const auto lower = [&](std::uint32_t m, double to, std::uint32_t row) {
+    const auto lower = [&](std::uint32_t m, double to) {
       if (to >= distance_[m]) return;
       distance_[m] = to;
-      from_[m] = row;
       queue.emplace(to, m);
     };
     for (std::uint32_t m = 0; m < members; ++m) {
       for (const Link& link : links_of(m)) {
-        if (link.row >= members) lower(m, link.length, link.row);
+        if (link.row >= members) lower(m, link.length);
       }
     }
     while (!queue.empty()) {
       const auto [to, m] = queue.top();
       queue.pop();
       if (to > distance_[m]) continue;
-      order_.push_back(m);
       for (const Link& link : links_of(m)) {
-        if (link.row < members) lower(link.row, to + link.length, from_[m]);
+        if (link.row < members) lower(link.row, to + link.length);
       }
     }
   }
@@ -223,58 +231,31 @@ class Diffusion {
       rows[at * blocks_ + c / columns][c % columns] = static_cast<float>(row[ids_[c]]);
   }
 
-  /// The rim's rows, and in each member that of the rim's vertex it is nearest to, faded by the distance.
+  /// The rim's rows, and what the members are pulled to, and how much.
   void start(const RowOfVertex& row_of) {
     const std::size_t members = cavity_.members.size();
-    rows_.assign((members + rim_.size()) * blocks_, Block(0.0F));
-    own_.assign(members * blocks_, Block(0.0F));
-    sums_.resize(blocks_);
-    for (std::size_t r = 0; r < rim_.size(); ++r) read_row(row_of(rim_[r]), members + r, rows_);
-    for (std::size_t m = 0; m < goals_.size(); ++m) read_row(row_of_goal(goals_[m], row_of), m, own_);
+    rim_rows_.assign(rim_.size() * blocks_, Block(0.0F));
+    rows_.assign(members * blocks_, Block(0.0F));
+    for (std::size_t r = 0; r < rim_.size(); ++r) read_row(row_of(rim_[r]), r, rim_rows_);
+    for (std::size_t m = 0; m < goals_.size(); ++m) read_row(row_of_goal(goals_[m], row_of), m, rows_);
     const Fade& fade = cavity_.is_mouth ? mouth_fade : socket_fade;
     pull_.resize(members);
-    for (const std::uint32_t m : order_) {
+    for (std::size_t m = 0; m < members; ++m) {
       pull_[m] = static_cast<float>(smooth_step(0.0, fade.rim, distance_[m]) / (4.0 * fade.length * fade.length));
       if (is_on_lip(m)) pull_to_front(m, row_of(cavity_.members[m]));
-      const auto rim_share = static_cast<float>(std::exp(-std::max(0.0, distance_[m] - fade.rim / 2.0) / fade.length));
-      for (std::size_t b = 0; b < blocks_; ++b) {
-        rows_[m * blocks_ + b] = rim_share * rows_[from_[m] * blocks_ + b] + (1.0F - rim_share) * own_[m * blocks_ + b];
-      }
     }
   }
 
   /// Adds the pull of a member of the back of a lip towards the row of its place among the points.
-  void pull_to_front(std::uint32_t m, const WeightRow& in_front) {
+  void pull_to_front(std::size_t m, const WeightRow& in_front) {
     const auto more =
         static_cast<float>((1.0 - smooth_step(0.0, lip.depth, distance_[m])) / (4.0 * lip.length * lip.length));
     const float share = more / (pull_[m] + more);
     for (std::size_t c = 0; c < ids_.size(); ++c) {
-      float& own = own_[m * blocks_ + c / columns][static_cast<int>(c % columns)];
+      float& own = rows_[m * blocks_ + c / columns][static_cast<int>(c % columns)];
       own += share * (static_cast<float>(in_front[ids_[c]]) - own);
     }
     pull_[m] += more;
-  }
-
-  /// Solves the equation of one member for its own row; the greatest change of a weight.
-  float relax(std::uint32_t m) {
-    const auto links = links_of(m);
-    const float pull = static_cast<float>(links.size()) * pull_[m];
-    float all = pull;
-    for (std::size_t b = 0; b < blocks_; ++b) sums_[b] = pull * own_[m * blocks_ + b];
-    for (const Link& link : links) {
-      all += link.weight;
-      const Block* const other = &rows_[link.row * blocks_];
-      for (std::size_t b = 0; b < blocks_; ++b) sums_[b] += link.weight * other[b];
-    }
-    Block* const row = &rows_[m * blocks_];
-    Block change(0.0F);
-    const float share = 1.0F / all;
-    for (std::size_t b = 0; b < blocks_; ++b) {
-      const Block step = over_relaxation * (sums_[b] * share - row[b]);
-      change = glm::max(change, glm::abs(step));
-      row[b] += step;
-    }
-    return std::max({change.x, change.y, change.z, change.w});
   }
 
   [[nodiscard]] std::span<const Link> links_of(std::uint32_t m) const {
@@ -294,13 +275,10 @@ class Diffusion {
   std::size_t blocks_ = 0;        ///< of a row
   std::vector<Goal> goals_;       ///< of the members of a mouth
   std::vector<SurfaceVertexId> in_front_;
-  std::vector<double> distance_;      ///< of the members from the rim
-  std::vector<std::uint32_t> from_;   ///< the row of the rim's vertex that each member is nearest to
-  std::vector<float> pull_;           ///< of the members, towards own_
-  std::vector<Block> rows_;           ///< members and rim
-  std::vector<Block> own_;            ///< what the members are pulled to
-  std::vector<std::uint32_t> order_;  ///< members, from the rim inwards
-  std::vector<Block> sums_;
+  std::vector<double> distance_;  ///< of the members from the rim
+  std::vector<float> pull_;       ///< of the members, towards what they follow far from the rim
+  std::vector<Block> rim_rows_;
+  std::vector<Block> rows_;  ///< of the members: what they are pulled to, then the solution
 };
 
 }  // namespace

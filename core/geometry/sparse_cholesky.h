@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+namespace semblante {
+
+/// A symmetric matrix with few entries beside its diagonal: one row a vertex, one entry a neighbour.
+struct SparseMatrix {
+  struct Entry {
+    std::uint32_t column;
+    double value;
+  };
+  std::vector<double> diagonal;
+  std::vector<std::uint32_t> offsets{0};  ///< by row, one more
+  std::vector<Entry> entries;             ///< each from either side, none on the diagonal
+
+  [[nodiscard]] std::span<const Entry> row(std::size_t at) const {
+    return std::span(entries).subspan(offsets[at], offsets[at + 1] - offsets[at]);
+  }
+};
+
+/// An order of the rows that keeps Cholesky's factor sparse, by nested dissection: the vertices are halved along their
+/// longest extent, and those between the halves come after both. `positions`: of the vertices.
+std::vector<std::uint32_t> dissection_order(const SparseMatrix& matrix, std::span<const glm::dvec3> positions);
+
+/// Cholesky's factor of a positive definite matrix: exact solutions, after one factorization for all right-hand sides.
+class SparseCholesky {
+ public:
+  /// `order`: of the elimination, a permutation of the rows.
+  SparseCholesky(const SparseMatrix& matrix, std::vector<std::uint32_t> order);
+
+  /// Solves for many right-hand sides at once: `rows` has `width` blocks of four for each row of the matrix, and gets
+  /// the solution.
+  void solve(std::span<glm::vec4> rows, std::size_t width) const;
+
+ private:
+  struct Entry {
+    std::uint32_t row;
+    float value;
+  };
+  std::vector<std::uint32_t> order_;
+  std::vector<double> diagonal_;             ///< by row
+  std::vector<std::vector<Entry>> columns_;  ///< below the diagonal, rows in the order of elimination
+};
+
+}  // namespace semblante

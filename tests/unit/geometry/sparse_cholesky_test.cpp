@@ -1,0 +1,72 @@
+#include "core/geometry/sparse_cholesky.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <gtest/gtest.h>
+
+#include "core/geometry/surface.h"
+#include "tests/support/meshes.h"
+
+namespace semblante {
+namespace {
+
+/// The Laplacian of a grid's edges, plus a small diagonal.
+struct GridSystem {
+  Surface surface;
+  SparseMatrix matrix;
+
+  explicit GridSystem(std::uint32_t side) : surface(build_surface(testing::make_grid(side, side))) {
+    for (std::uint32_t v = 0; v < surface.vertex_count(); ++v) {
+      double sum = 0.01;
+      for (const Surface::Step& step : surface.steps_from(SurfaceVertexId(v))) {
+        const double weight = 1.0 + 0.1 * static_cast<double>((v + step.to.value()) % 7);
+        sum += weight;
+        matrix.entries.push_back({step.to.value(), -weight});
+      }
+      matrix.diagonal.push_back(sum);
+      matrix.offsets.push_back(static_cast<std::uint32_t>(matrix.entries.size()));
+    }
+  }
+};
+
+/// The greatest difference of the matrix times its solutions from the right-hand sides, which are from 0 to 2.
+double residual(const GridSystem& system, const std::vector<std::uint32_t>& order) {
+  const std::size_t count = system.matrix.diagonal.size();
+  constexpr std::size_t width = 2;
+  std::vector<glm::vec4> right;
+  for (std::size_t i = 0; i < count * width; ++i) {
+    const auto at = static_cast<float>(i);
+    right.emplace_back(1.0F + std::sin(at), 1.0F + std::cos(at), static_cast<float>(i % 3), 1.0F);
+  }
+  std::vector<glm::vec4> rows = right;
+  SparseCholesky(system.matrix, order).solve(rows, width);
+  double greatest = 0.0;
+  for (std::size_t r = 0; r < count; ++r) {
+    for (std::size_t b = 0; b < width; ++b) {
+      glm::dvec4 sum = system.matrix.diagonal[r] * glm::dvec4(rows[r * width + b]);
+      for (const SparseMatrix::Entry& e : system.matrix.row(r)) sum += e.value * glm::dvec4(rows[e.column * width + b]);
+      for (int c = 0; c < 4; ++c)
+        greatest = std::max(greatest, std::abs(sum[c] - static_cast<double>(right[r * width + b][c])));
+    }
+  }
+  return greatest;
+}
+
+TEST(SparseCholesky, SolutionsOfAGrid_SolveTheEquationsInAnyOrder) {
+  for (const std::uint32_t side : {1U, 2U, 20U}) {
+    const GridSystem system(side);
+    std::vector<std::uint32_t> order = dissection_order(system.matrix, system.surface.positions);
+    // The solutions are up to 100: single precision.
+    EXPECT_LT(residual(system, order), 1e-3) << side;
+    std::sort(order.begin(), order.end());
+    std::vector<std::uint32_t> rising(order.size());
+    std::iota(rising.begin(), rising.end(), 0U);
+    EXPECT_EQ(order, rising) << side;
+    EXPECT_LT(residual(system, rising), 1e-3) << side;
+  }
+}
+
+}  // namespace
+}  // namespace semblante
