@@ -8,6 +8,10 @@
 #include <glm/geometric.hpp>
 
 namespace semblante {
+namespace {
+/// Ranges with no more nodes are not split.
+constexpr std::size_t leaf_size = 8;
+}  // namespace
 
 NearestPoint::NearestPoint(std::span<const glm::dvec3> points) {
   assert(!points.empty());
@@ -17,7 +21,7 @@ NearestPoint::NearestPoint(std::span<const glm::dvec3> points) {
 }
 
 void NearestPoint::build(std::size_t first, std::size_t last, int axis) {
-  if (last - first <= 1) return;
+  if (last - first <= leaf_size) return;
   const std::size_t middle = first + (last - first) / 2;
   const auto at = [&](std::size_t i) { return nodes_.begin() + static_cast<std::ptrdiff_t>(i); };
   std::nth_element(at(first), at(middle), at(last),
@@ -28,15 +32,21 @@ void NearestPoint::build(std::size_t first, std::size_t last, int axis) {
 
 void NearestPoint::search(std::size_t first, std::size_t last, int axis, const glm::dvec3& to, std::uint32_t& index,
                           double& squared) const {
-  if (first >= last) return;
+  const auto compare = [&](const Node& node) {
+    const glm::dvec3 away = node.position - to;
+    const double here = glm::dot(away, away);
+    if (here < squared || (here == squared && node.index < index)) {
+      squared = here;
+      index = node.index;
+    }
+  };
+  if (last - first <= leaf_size) {
+    for (std::size_t i = first; i < last; ++i) compare(nodes_[i]);
+    return;
+  }
   const std::size_t middle = first + (last - first) / 2;
   const Node& node = nodes_[middle];
-  const glm::dvec3 away = node.position - to;
-  const double here = glm::dot(away, away);
-  if (here < squared || (here == squared && node.index < index)) {
-    squared = here;
-    index = node.index;
-  }
+  compare(node);
   const double beyond = to[axis] - node.position[axis];
   const int next = (axis + 1) % 3;
   const bool low_first = beyond < 0.0;
@@ -62,11 +72,17 @@ NearestPoint::Hit NearestPoint::nearest(const glm::dvec3& to) const {
 
 void NearestPoint::collect(std::size_t first, std::size_t last, int axis, const glm::dvec3& to, double squared,
                            std::vector<std::uint32_t>& indices) const {
-  if (first >= last) return;
+  const auto add_if_near = [&](const Node& node) {
+    const glm::dvec3 away = node.position - to;
+    if (glm::dot(away, away) <= squared) indices.push_back(node.index);
+  };
+  if (last - first <= leaf_size) {
+    for (std::size_t i = first; i < last; ++i) add_if_near(nodes_[i]);
+    return;
+  }
   const std::size_t middle = first + (last - first) / 2;
   const Node& node = nodes_[middle];
-  const glm::dvec3 away = node.position - to;
-  if (glm::dot(away, away) <= squared) indices.push_back(node.index);
+  add_if_near(node);
   const double beyond = to[axis] - node.position[axis];
   const int next = (axis + 1) % 3;
   if (beyond <= 0.0 || beyond * beyond <= squared) collect(first, middle, next, to, squared, indices);

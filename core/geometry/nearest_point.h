@@ -36,7 +36,8 @@ class NearestPoint {
   void collect(std::size_t first, std::size_t last, int axis, const glm::dvec3& to, double squared,
                std::vector<std::uint32_t>& indices) const;
 
-  std::vector<Node> nodes_;  ///< the middle of each range splits it, along x, y, z in turn
+  /// The middle of each range splits it, along x, y, z in turn, down to ranges that are quicker to go through.
+  std::vector<Node> nodes_;
 };
 
 }  // namespace semblante
