@@ -46,7 +46,8 @@ void NonNegativeKriging::solve_passive(std::span<const double> to_target) {
 }
 
 // The active-set method of Lawson and Hanson, on the normal equations (K is well conditioned). `passive_` keeps the
-// order of insertion, so that Cholesky's factor only grows; it is rebuilt from the first removed site on.
+// order of insertion, so that Cholesky's factor only grows; it is rebuilt from the first removed site on. It starts from
+// the sites of the last solution, which for a neighbouring target are nearly always those of this one.
 std::span<const double> NonNegativeKriging::solve(std::span<const std::size_t> sites,
                                                   std::span<const double> to_target) {
   assert(sites.size() == to_target.size());
@@ -54,23 +55,15 @@ std::span<const double> NonNegativeKriging::solve(std::span<const std::size_t> s
   weights_.assign(sites.size(), 0.0);
   is_passive_.assign(sites.size(), false);
   passive_.clear();
+  for (const std::size_t site : last_) {
+    const auto at = std::find(sites.begin(), sites.end(), site);
+    if (at == sites.end()) continue;
+    passive_.push_back(static_cast<std::size_t>(at - sites.begin()));
+    is_passive_[passive_.back()] = true;
+    extend_factor(passive_.size() - 1);
+  }
   // Every iteration lowers the objective and no passive set repeats; the limit is only for rounding errors.
   for (std::size_t turn = 0; turn < 3 * sites.size(); ++turn) {
-    std::size_t best = sites.size();
-    double best_gain = least_gain;
-    for (std::size_t s = 0; s < sites.size(); ++s) {
-      if (is_passive_[s]) continue;
-      double gain = to_target[s];
-      for (const std::size_t p : passive_) gain -= covariance(sites[s], sites[p]) * weights_[p];
-      if (gain > best_gain) {
-        best_gain = gain;
-        best = s;
-      }
-    }
-    if (best == sites.size()) break;
-    passive_.push_back(best);
-    is_passive_[best] = true;
-    extend_factor(passive_.size() - 1);
     solve_passive(to_target);
     while (std::any_of(trial_.begin(), trial_.end(), [](double w) { return !(w > 0.0); })) {
       double step = 1.0;  // step towards the trial up to which all weights stay positive
@@ -99,7 +92,24 @@ std::span<const double> NonNegativeKriging::solve(std::span<const std::size_t> s
       solve_passive(to_target);
     }
     for (std::size_t p = 0; p < passive_.size(); ++p) weights_[passive_[p]] = trial_[p];
+    std::size_t best = sites.size();
+    double best_gain = least_gain;
+    for (std::size_t s = 0; s < sites.size(); ++s) {
+      if (is_passive_[s]) continue;
+      double gain = to_target[s];
+      for (const std::size_t p : passive_) gain -= covariance(sites[s], sites[p]) * weights_[p];
+      if (gain > best_gain) {
+        best_gain = gain;
+        best = s;
+      }
+    }
+    if (best == sites.size()) break;
+    passive_.push_back(best);
+    is_passive_[best] = true;
+    extend_factor(passive_.size() - 1);
   }
+  last_.clear();
+  for (const std::size_t p : passive_) last_.push_back(sites[p]);
   return weights_;
 }
 
