@@ -46,8 +46,8 @@ void NonNegativeKriging::solve_passive(std::span<const double> to_target) {
 }
 
 // The active-set method of Lawson and Hanson, on the normal equations (K is well conditioned). `passive_` keeps the
-// order of insertion, so that Cholesky's factor only grows; it is rebuilt from the first removed site on. It starts from
-// the sites of the last solution, which for a neighbouring target are nearly always those of this one.
+// order of insertion, so that Cholesky's factor only grows; it is rebuilt from the first removed site on. It starts
+// from the sites of the last solution, which for a neighbouring target are nearly always those of this one.
 std::span<const double> NonNegativeKriging::solve(std::span<const std::size_t> sites,
                                                   std::span<const double> to_target) {
   assert(sites.size() == to_target.size());

@@ -29,8 +29,8 @@ class NonNegativeKriging {
   std::vector<std::size_t> passive_;  ///< places in `sites` whose weight may be positive
   std::vector<bool> is_passive_;
   std::vector<std::size_t> last_;  ///< passive sites of the last solution
-  std::vector<double> trial_;   ///< unconstrained weights of passive_
-  std::vector<double> factor_;  ///< lower triangle, row by row, #F wide
+  std::vector<double> trial_;      ///< unconstrained weights of passive_
+  std::vector<double> factor_;     ///< lower triangle, row by row, #F wide
   std::span<const std::size_t> sites_;
 };
 

@@ -94,29 +94,45 @@ SiteKriging::SiteKriging(const Surface& surface, const PointDistances& distances
       sites_(std::move(sites)),
       unit_(unit),
       kernel_(kernel),
-      kriging_(covariances(sites_, unit, kernel), sites_.size()) {
-  for (const KrigingSite& site : sites_) places_.push_back(site.position);
+      reach_(unit * kernel.reach()),
+      kriging_(covariances(sites_, unit, kernel), sites_.size()),
+      squares_(sites_.size()) {
+  for (const KrigingSite& site : sites_) {
+    for (int axis = 0; axis < 3; ++axis) places_[axis].push_back(static_cast<float>(site.position[axis]));
+  }
+}
+
+void SiteKriging::find_near(const glm::dvec3& p) {
+  const glm::vec3 at(p);
+  for (std::size_t s = 0; s < squares_.size(); ++s) {
+    const float x = places_[0][s] - at.x;
+    const float y = places_[1][s] - at.y;
+    const float z = places_[2][s] - at.z;
+    squares_[s] = x * x + y * y + z * z;
+  }
+  const auto certainly_out = static_cast<float>(reach_ * reach_ * (1.0 + 1e-5));
+  near_.clear();
+  for (std::size_t s = 0; s < squares_.size(); ++s) {
+    if (squares_[s] <= certainly_out) near_.push_back(s);
+  }
 }
 
 std::span<const SiteKriging::Term> SiteKriging::at(std::size_t member) {
   const SurfaceVertexId vertex = distances_.members[member];
   const glm::dvec3& p = surface_.positions[vertex.value()];
   const std::span<const double> along_surface = distances_.of_member(member);
-  const double reach = unit_ * kernel_.reach();
   candidates_.clear();
   to_target_.clear();
   terms_.clear();
-  const double certainly_out = reach * reach * (1.0 + 1e-9);
-  for (std::size_t s = 0; s < sites_.size(); ++s) {
-    const glm::dvec3 offset = p - places_[s];
-    if (glm::dot(offset, offset) > certainly_out) continue;  // most sites, without a root
+  find_near(p);
+  for (const std::size_t s : near_) {
     const KrigingSite& site = sites_[s];
     if (vertex == site.vertex || (site.slot && along_surface[*site.slot] == 0.0)) {
       terms_.assign(1, {&site, 1.0});
       return terms_;
     }
     const double straight = glm::distance(p, site.position);
-    if (straight >= reach) continue;
+    if (straight >= reach_) continue;
     const double along = way_to(site, along_surface);
     if (along >= greatest_detour * straight) continue;
     const double covariance = kernel_.at(straight / unit_) * trust(along / straight);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <utility>
@@ -62,13 +63,19 @@ class SiteKriging {
   [[nodiscard]] std::span<const KrigingSite> sites() const { return sites_; }
 
  private:
+  /// Finds the sites within reach, and few others: by far most are out, which single precision shows.
+  void find_near(const glm::dvec3& p);
+
   const Surface& surface_;
   const PointDistances& distances_;
   std::vector<KrigingSite> sites_;
-  std::vector<glm::dvec3> places_;  ///< of the sites
   double unit_;
   KrigingKernel kernel_;
+  double reach_;  ///< model units
   NonNegativeKriging kriging_;
+  std::array<std::vector<float>, 3> places_;  ///< x, y and z of the sites
+  std::vector<float> squares_;
+  std::vector<std::size_t> near_;
   std::vector<std::size_t> candidates_;
   std::vector<double> to_target_;
   std::vector<Term> terms_;
