@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <deque>
-#include <numeric>
 
 #include <glm/geometric.hpp>
 
@@ -31,8 +30,6 @@ constexpr double eye_separation_per_spread = 0.85;
 constexpr double greatest_unit_per_spread = 2.0;
 
 using Row = WeightRow;
-
-double sum_of(const Row& row) { return std::accumulate(row.begin(), row.end(), 0.0); }
 
 /// The length that distances are measured in.
 double unit_length(std::span<const KrigingSite> sites, double eye_separation) {

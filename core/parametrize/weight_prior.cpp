@@ -113,7 +113,8 @@ void WeightPrior::correct(WeightRow& row, const glm::dvec3& position, const Plac
       if (places[correction.point].vertex != nowhere) change[correction.point] += amount * correction.factor;
     }
   };
-  const double off_edges = share_off_edges(row);
+  double off_edges = 1.0;
+  for (std::size_t a = 0; a < count; ++a) off_edges -= shares[a] * edge_points()[ids[a]];
   for (std::size_t a = 0; a < count; ++a) {
     const std::size_t i = ids[a];
     for (std::size_t b = a + 1; b < count; ++b) {
@@ -126,6 +127,7 @@ void WeightPrior::correct(WeightRow& row, const glm::dvec3& position, const Plac
   double corrected = 0.0;
   for (std::size_t id = 0; id < row.size(); ++id) {
     double& w = row[id];
+    if (w == 0.0 && change[id] == 0.0) continue;  // most
     if (change[id] >= 0.0) {
       w += change[id];
     } else if (w > 0.0) {
