@@ -59,18 +59,19 @@ double share_of(const WeightTable<float>& rows, std::size_t vertex, FeaturePoint
   return at != points.end() ? rows.weights_of(vertex)[static_cast<std::size_t>(at - points.begin())] : 0.0;
 }
 
-std::vector<FeaturePointId> ids_of_names(std::span<const std::string_view> names) {
-  std::vector<FeaturePointId> ids;
-  for (const std::string_view name : names) ids.push_back(*parse_feature_point(name));
-  return ids;
-}
-
-double sum_of_shares(const WeightTable<float>& rows, const Triangle& t, std::span<const FeaturePointId> ids) {
-  double sum = 0.0;
-  for (const FeaturePointId id : ids) {
-    for (const std::uint32_t corner : t) sum += share_of(rows, corner, id);
+/// #V: the sum of the shares of some points.
+std::vector<double> sums_of_shares(const WeightTable<float>& rows, std::span<const std::string_view> names) {
+  std::array<bool, feature_point_count> counts{};
+  for (const std::string_view name : names) counts[parse_feature_point(name)->value()] = true;
+  std::vector<double> sums(rows.row_count(), 0.0);
+  for (std::size_t vertex = 0; vertex < sums.size(); ++vertex) {
+    const auto points = rows.points_of(vertex);
+    const auto weights = rows.weights_of(vertex);
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      if (counts[points[k].value()]) sums[vertex] += weights[k];
+    }
   }
-  return sum;
+  return sums;
 }
 
 /// Both lips of one head, column by column.
@@ -78,15 +79,18 @@ class Lips {
  public:
   Lips(const Model& model, const Rig& rig, double from_x, double to_x)
       : from_x_(from_x), step_((to_x - from_x) / static_cast<double>(columns - 1)) {
-    const std::vector<FeaturePointId> of_upper = ids_of_names(mpeg4::mouth.upper_flesh);
-    const std::vector<FeaturePointId> of_lower = ids_of_names(mpeg4::mouth.lower_flesh);
+    const std::vector<double> of_upper = sums_of_shares(rig.influence, mpeg4::mouth.upper_flesh);
+    const std::vector<double> of_lower = sums_of_shares(rig.influence, mpeg4::mouth.lower_flesh);
+    for (std::size_t i = 0; i < facing_lips.size(); ++i) {
+      facing_[i] = {*parse_feature_point(facing_lips[i].upper), *parse_feature_point(facing_lips[i].lower)};
+    }
     for (const Triangle& t : model.triangles) {
       if (rig.parts[rig.part_of_vertex[t[0]].value()].role != PartRole::skin) continue;
       const auto [least, greatest] =
           std::minmax({model.positions[t[0]].x, model.positions[t[1]].x, model.positions[t[2]].x}, std::less<float>());
       if (least >= to_x || greatest <= from_x) continue;
-      const double upper = sum_of_shares(rig.influence, t, of_upper) / 3.0;
-      const double lower = sum_of_shares(rig.influence, t, of_lower) / 3.0;
+      const double upper = (of_upper[t[0]] + of_upper[t[1]] + of_upper[t[2]]) / 3.0;
+      const double lower = (of_lower[t[0]] + of_lower[t[1]] + of_lower[t[2]]) / 3.0;
       if (std::max(upper, lower) < least_share || upper == lower) continue;
       add(model, rig, t, upper > lower);
     }
@@ -105,8 +109,8 @@ class Lips {
       corners[c] = {p.y, p.z, {}};
       for (int i = 0; i < 3; ++i) {
         // With the weights of Eq. 4 a lip also follows the points of the other lip.
-        const double by_upper = share_of(rig.influence, t[c], *parse_feature_point(facing_lips[i].upper));
-        const double by_lower = share_of(rig.influence, t[c], *parse_feature_point(facing_lips[i].lower));
+        const double by_upper = share_of(rig.influence, t[c], facing_[i].upper);
+        const double by_lower = share_of(rig.influence, t[c], facing_[i].lower);
         corners[c].moves[i] = is_upper ? by_upper - by_lower : by_lower - by_upper;
       }
     }
@@ -125,7 +129,12 @@ class Lips {
     }
   }
 
+  struct Facing {
+    FeaturePointId upper, lower;
+  };
+
   double from_x_, step_;
+  std::array<Facing, facing_lips.size()> facing_;
   std::array<Section, columns> upper_, lower_;
 };
 
