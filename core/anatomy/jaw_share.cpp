@@ -61,21 +61,29 @@ std::vector<SurfaceVertexId> sockets_of(const Surface& surface, PartId part, con
   for (const glm::dvec3& t : teeth) {
     if (box.is_within(t, touch)) near.push_back(t);
   }
-  if (near.size() * 10 < teeth.size()) return {};
+  const std::size_t enough = (teeth.size() + 9) / 10;
+  if (near.size() < enough) return {};
   std::vector<glm::dvec3> positions;
   for (const SurfaceVertexId v : members) positions.push_back(surface.positions[v.value()]);
   const NearestPoint near_part(positions);
   std::size_t touching = 0;
-  for (const glm::dvec3& t : near) touching += static_cast<std::size_t>(near_part.has_within(t, touch));
+  for (const glm::dvec3& t : near) {
+    touching += static_cast<std::size_t>(near_part.has_within(t, touch));
+    if (touching == enough) break;
+  }
   // Gums touch many vertices of the teeth (a quarter of them on the head used for tests); a tongue at rest touches them
   // only with its tip (one in fifty).
-  if (touching * 10 < teeth.size()) return {};
+  if (touching < enough) return {};
 
   const NearestPoint near_teeth(near);
+  Box of_teeth;
+  for (const glm::dvec3& t : near) of_teeth.add(t);
   std::vector<SurfaceVertexId> sockets;
   for (std::size_t m = 0; m < members.size(); ++m) {
     // Half the distance, because the borders of the tongue are close to the teeth too.
-    if (near_teeth.has_within(positions[m], 0.5 * touch)) sockets.push_back(members[m]);
+    const double reach = 0.5 * touch;
+    if (of_teeth.is_within(positions[m], reach) && near_teeth.has_within(positions[m], reach))
+      sockets.push_back(members[m]);
   }
   return sockets;
 }

@@ -70,6 +70,13 @@ NearestPoint::Hit NearestPoint::nearest(const glm::dvec3& to) const {
   return {index, std::sqrt(squared)};
 }
 
+double NearestPoint::square_within(const glm::dvec3& to, double bound) const {
+  // Equal to the bound is not nearer: index 0 has no lower one.
+  std::uint32_t index = 0;
+  search(0, nodes_.size(), 0, to, index, bound);
+  return bound;
+}
+
 void NearestPoint::collect(std::size_t first, std::size_t last, int axis, const glm::dvec3& to, double squared,
                            std::vector<std::uint32_t>& indices) const {
   const auto add_if_near = [&](const Node& node) {
@@ -89,22 +96,20 @@ void NearestPoint::collect(std::size_t first, std::size_t last, int axis, const 
   if (beyond >= 0.0 || beyond * beyond <= squared) collect(middle + 1, last, next, to, squared, indices);
 }
 
-std::vector<std::uint32_t> NearestPoint::nearest_with_ties(const glm::dvec3& to) const {
+std::vector<std::uint32_t> NearestPoint::nearest_with_ties(const glm::dvec3& to, double within) const {
   constexpr double tie = 1e-6;
-  const double reach = nearest(to).distance * (1.0 + tie);
   std::vector<std::uint32_t> indices;
-  collect(0, nodes_.size(), 0, to, reach * reach, indices);
+  const double bound = within * within;
+  const double squared = square_within(to, bound);
+  if (!(squared < bound)) return indices;
+  collect(0, nodes_.size(), 0, to, squared * (1.0 + tie) * (1.0 + tie), indices);
   std::sort(indices.begin(), indices.end());
   return indices;
 }
 
 bool NearestPoint::has_within(const glm::dvec3& to, double distance) const {
-  // Equal to the bound is not nearer: index 0 has no lower one.
-  std::uint32_t index = 0;
   const double bound = distance * distance;
-  double squared = bound;
-  search(0, nodes_.size(), 0, to, index, squared);
-  return squared < bound;
+  return square_within(to, bound) < bound;
 }
 
 }  // namespace semblante

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -22,8 +23,10 @@ class NearestPoint {
   [[nodiscard]] Hit nearest(const glm::dvec3& to) const;
   /// Whether a point is nearer than `distance`: much faster than `nearest` where most are farther.
   [[nodiscard]] bool has_within(const glm::dvec3& to, double distance) const;
-  /// Indices of the nearest point and of all that are as near but for rounding; rising.
-  [[nodiscard]] std::vector<std::uint32_t> nearest_with_ties(const glm::dvec3& to) const;
+  /// Indices of the nearest point and of all that are as near but for rounding; rising. Empty if none is nearer than
+  /// `within`.
+  [[nodiscard]] std::vector<std::uint32_t> nearest_with_ties(
+      const glm::dvec3& to, double within = std::numeric_limits<double>::infinity()) const;
 
  private:
   struct Node {
@@ -33,6 +36,8 @@ class NearestPoint {
   void build(std::size_t first, std::size_t last, int axis);
   void search(std::size_t first, std::size_t last, int axis, const glm::dvec3& to, std::uint32_t& index,
               double& squared) const;
+  /// The square of the distance to the nearest point, or `bound` if it is not less.
+  [[nodiscard]] double square_within(const glm::dvec3& to, double bound) const;
   void collect(std::size_t first, std::size_t last, int axis, const glm::dvec3& to, double squared,
                std::vector<std::uint32_t>& indices) const;
 

@@ -159,9 +159,10 @@ class Diffusion {
       const glm::dvec3& p = surface_.positions[member.value()];
       const glm::dvec3 from_corners = (p - cavity_.middle) / unit_;
       Goal goal{in_front_.size(), in_front_.size(), 0.0, jaw_share_in_mouth(from_corners)};
-      if (nearest && nearest->has_within(p, flesh.thick * unit_)) {
-        // On the middle of a symmetric head the skin on both sides is as near.
-        const std::vector<std::uint32_t> ties = nearest->nearest_with_ties(p);
+      // On the middle of a symmetric head the skin on both sides is as near.
+      std::vector<std::uint32_t> ties;
+      if (nearest) ties = nearest->nearest_with_ties(p, flesh.thick * unit_);
+      if (!ties.empty()) {
         const double distance = glm::distance(p, skin[ties.front()]);
         const double up = smooth_step(flesh.below, flesh.above, from_corners.y);
         const double share = (1.0 - smooth_step(flesh.thin, flesh.thick, distance / unit_)) *

@@ -35,6 +35,8 @@ TEST(NearestPoint, RandomPoints_EqualTheScan) {
         if (glm::distance(points[i], to) <= hit.distance * (1.0 + 1e-9)) ties.push_back(i);
       }
       ASSERT_EQ(tree.nearest_with_ties(to), ties);
+      ASSERT_EQ(tree.nearest_with_ties(to, 1.001 * hit.distance), ties);
+      ASSERT_TRUE(tree.nearest_with_ties(to, 0.999 * hit.distance).empty());
     }
   }
 }
