@@ -5,11 +5,12 @@
 namespace semblante {
 
 void keep_greatest(WeightRow& weights, std::vector<std::size_t>& order) {
+  const auto positive = std::count_if(weights.begin(), weights.end(), [](double w) { return w > 0.0; });
+  if (static_cast<std::size_t>(positive) <= max_smooth_influences) return;
   order.clear();
   for (std::size_t id = 0; id < weights.size(); ++id) {
     if (weights[id] > 0.0) order.push_back(id);
   }
-  if (order.size() <= max_smooth_influences) return;
   std::partial_sort(
       order.begin(), order.begin() + max_smooth_influences + 1, order.end(),
       [&](std::size_t a, std::size_t b) { return weights[a] != weights[b] ? weights[a] > weights[b] : a < b; });

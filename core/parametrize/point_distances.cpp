@@ -17,11 +17,9 @@ PointDistances measure_distances(const Surface& graph, PartId part, std::span<co
   }
   const std::size_t count = result.points.size();
   const DistancesFromAll all = distances_from_all(graph, part, sources);
-  result.to_members.reserve(result.members.size() * count);  // grown by rows: zeros first would be a tenth of the time
-  std::vector<double> row(count);
+  result.to_members = std::make_unique_for_overwrite<double[]>(result.members.size() * count);
   for (std::size_t m = 0; m < result.members.size(); ++m) {
-    all.read_row(m, row);
-    result.to_members.insert(result.to_members.end(), row.begin(), row.end());
+    all.read_row(m, std::span(&result.to_members[m * count], count));
   }
   // Sums of lengths from either end may differ in the last bit; d_ij is the one from the lower id.
   result.between.resize(count * count);

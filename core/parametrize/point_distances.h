@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -14,11 +15,11 @@ namespace semblante {
 struct PointDistances {
   std::vector<SurfacePoint> points;          ///< #F on this part, in rising order of id; a *slot* indexes them
   std::span<const SurfaceVertexId> members;  ///< #M vertices of the part
-  std::vector<double> to_members;            ///< #M x #F, row by row
+  std::unique_ptr<double[]> to_members;      ///< #M x #F, row by row; no vector: zeros first would take as long
   std::vector<double> between;               ///< #F x #F, d_ij; symmetric
 
   [[nodiscard]] std::span<const double> of_member(std::size_t member) const {
-    return std::span(to_members).subspan(member * points.size(), points.size());
+    return {&to_members[member * points.size()], points.size()};
   }
   [[nodiscard]] double between_points(std::size_t i, std::size_t j) const { return between[i * points.size() + j]; }
 };

@@ -1,6 +1,8 @@
 #include "core/parametrize/influence_regions.h"
 
+#include <algorithm>
 #include <limits>
+#include <memory>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -20,11 +22,13 @@ class OneVertex {
  public:
   void add(std::string_view name, const glm::dvec3& position, double distance) {
     distances_.points.push_back({testing::fp(name), SurfaceVertexId(1), position});
-    distances_.to_members.push_back(distance);
+    to_points_.push_back(distance);
   }
   [[nodiscard]] std::vector<std::string> region() {
     const std::vector<SurfaceVertexId> members = {SurfaceVertexId(0)};
     distances_.members = members;
+    distances_.to_members = std::make_unique<double[]>(to_points_.size());
+    std::copy(to_points_.begin(), to_points_.end(), distances_.to_members.get());
     Surface surface;
     surface.positions = {glm::dvec3(0.0), glm::dvec3(100.0)};
     std::vector<std::string> names;
@@ -35,6 +39,7 @@ class OneVertex {
 
  private:
   PointDistances distances_;
+  std::vector<double> to_points_;
 };
 
 TEST(InfluenceRegion, PointBeyondANearerOne_IsCutOff) {
