@@ -10,7 +10,7 @@
 namespace semblante {
 namespace {
 /// Ranges with no more nodes are not split.
-constexpr std::size_t leaf_size = 8;
+constexpr std::size_t leaf_size = 16;
 }  // namespace
 
 NearestPoint::NearestPoint(std::span<const glm::dvec3> points) {

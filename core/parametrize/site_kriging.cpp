@@ -87,6 +87,33 @@ std::vector<KrigingSite> edge_sites(const Surface& surface, const PointDistances
 double KrigingKernel::at(double distance) const { return std::exp(-std::pow(distance / length, power)); }
 double KrigingKernel::reach() const { return length * std::pow(-std::log(least), 1.0 / power); }
 
+namespace {
+constexpr std::size_t table_steps = 512;
+/// Nearer than this many steps the kernel is too sharp for interpolation.
+constexpr std::size_t sharp_steps = 12;
+}  // namespace
+
+KernelTable::KernelTable(const KrigingKernel& kernel)
+    : kernel_(kernel), steps_per_unit_(static_cast<double>(table_steps) / kernel.reach()) {
+  for (std::size_t i = 0; i <= table_steps + 1; ++i) {
+    const double distance = static_cast<double>(i) / steps_per_unit_;
+    const double value = kernel.at(distance);
+    const double slope = i == 0 ? 0.0 : kernel.power * std::log(value) * value / static_cast<double>(i);
+    nodes_.push_back({value, slope});
+  }
+}
+
+double KernelTable::at(double distance) const {
+  const double place = distance * steps_per_unit_;
+  const auto i = static_cast<std::size_t>(place);
+  if (i < sharp_steps) return kernel_.at(distance);
+  const double t = place - static_cast<double>(i);
+  const double s = 1.0 - t;
+  const Node& a = nodes_[i];
+  const Node& b = nodes_[i + 1];
+  return s * s * ((1.0 + 2.0 * t) * a.value + t * a.slope) + t * t * ((1.0 + 2.0 * s) * b.value - s * b.slope);
+}
+
 SiteKriging::SiteKriging(const Surface& surface, const PointDistances& distances, std::vector<KrigingSite> sites,
                          double unit, KrigingKernel kernel)
     : surface_(surface),
@@ -94,6 +121,7 @@ SiteKriging::SiteKriging(const Surface& surface, const PointDistances& distances
       sites_(std::move(sites)),
       unit_(unit),
       kernel_(kernel),
+      table_(kernel),
       reach_(unit * kernel.reach()),
       kriging_(covariances(sites_, unit, kernel), sites_.size()),
       squares_(sites_.size()) {
@@ -135,7 +163,7 @@ std::span<const SiteKriging::Term> SiteKriging::at(std::size_t member) {
     if (straight >= reach_) continue;
     const double along = way_to(site, along_surface);
     if (along >= greatest_detour * straight) continue;
-    const double covariance = kernel_.at(straight / unit_) * trust(along / straight);
+    const double covariance = table_.at(straight / unit_) * trust(along / straight);
     if (!(covariance > kernel_.least)) continue;
     candidates_.push_back(s);
     to_target_.push_back((covariance - kernel_.least) / (1.0 - kernel_.least));

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/parametrize/site_kriging.h"
 #include "core/parametrize/surface_weights.h"
 #include "tests/support/meshes.h"
 
@@ -198,6 +199,15 @@ TEST(SmoothWeights_Rows, DoNotCrossACut) {
     EXPECT_GT(weight_of(table, at(column, row), "2.2"), 0.4) << column;
     EXPECT_LT(weight_of(table, below[column], "2.2"), 0.02) << column;
     EXPECT_GT(weight_of(table, below[column], "2.3"), 0.4) << column;
+  }
+}
+
+TEST(KernelTable, AnyDistance_IsTheKernels) {
+  const KrigingKernel kernel = {0.4, 1.2, 0.05};
+  const KernelTable table(kernel);
+  for (int i = 0; i < 100'000; ++i) {
+    const double distance = kernel.reach() * i / 100'000.0;
+    ASSERT_NEAR(table.at(distance), kernel.at(distance), 1e-8) << distance;
   }
 }
 
