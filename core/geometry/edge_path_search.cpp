@@ -18,10 +18,14 @@ constexpr auto farther = [](const auto& a, const auto& b) { return a.distance > 
 EdgePathSearch::EdgePathSearch(const Surface& surface)
     : surface_(surface), distances_(surface.vertex_count(), unreachable) {}
 
-void EdgePathSearch::lower(std::uint32_t vertex, double distance) {
-  distances_[vertex] = distance;
-  pending_.push_back({distance, vertex});
-  std::push_heap(pending_.begin(), pending_.end(), farther);
+void EdgePathSearch::go_on_from(std::uint32_t vertex) {
+  for (const Surface::Step& step : surface_.steps_from(SurfaceVertexId(vertex))) {
+    const double distance = distances_[vertex] + step.length;
+    if (distance >= distances_[step.to.value()]) continue;
+    distances_[step.to.value()] = distance;
+    pending_.push_back({distance, step.to.value()});
+    std::push_heap(pending_.begin(), pending_.end(), farther);
+  }
 }
 
 std::span<const double> EdgePathSearch::from(std::span<const SurfaceVertexId> sources) {
@@ -34,17 +38,15 @@ std::span<const double> EdgePathSearch::from(std::span<const SurfaceVertexId> so
     assert(source.value() < surface_.vertex_count());
     const PartId part = surface_.part_of[source.value()];
     if (std::find(touched_.begin(), touched_.end(), part) == touched_.end()) touched_.push_back(part);
-    lower(source.value(), 0.0);
+    distances_[source.value()] = 0.0;
   }
+  // Half of a head may be sources: only what is around them waits in the heap.
+  for (const SurfaceVertexId source : sources) go_on_from(source.value());
   while (!pending_.empty()) {
     std::pop_heap(pending_.begin(), pending_.end(), farther);
     const Entry at = pending_.back();
     pending_.pop_back();
-    if (at.distance > distances_[at.vertex]) continue;  // stale
-    for (const Surface::Step& step : surface_.steps_from(SurfaceVertexId(at.vertex))) {
-      const double distance = at.distance + step.length;
-      if (distance < distances_[step.to.value()]) lower(step.to.value(), distance);
-    }
+    if (at.distance == distances_[at.vertex]) go_on_from(at.vertex);  // else stale
   }
   return distances_;
 }

@@ -28,7 +28,8 @@ class EdgePathSearch {
     double distance;
     std::uint32_t vertex;
   };
-  void lower(std::uint32_t vertex, double distance);
+  /// Lowers the distances of the neighbours of a vertex whose own one is final.
+  void go_on_from(std::uint32_t vertex);
 
   const Surface& surface_;
   std::vector<double> distances_;
