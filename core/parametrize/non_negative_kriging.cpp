@@ -55,12 +55,16 @@ std::span<const double> NonNegativeKriging::solve(std::span<const std::size_t> s
   weights_.assign(sites.size(), 0.0);
   is_passive_.assign(sites.size(), false);
   passive_.clear();
+  bool is_factor_valid = true;  // up to the first site that this target has not
   for (const std::size_t site : last_) {
     const auto at = std::find(sites.begin(), sites.end(), site);
-    if (at == sites.end()) continue;
+    if (at == sites.end()) {
+      is_factor_valid = false;
+      continue;
+    }
     passive_.push_back(static_cast<std::size_t>(at - sites.begin()));
     is_passive_[passive_.back()] = true;
-    extend_factor(passive_.size() - 1);
+    if (!is_factor_valid) extend_factor(passive_.size() - 1);
   }
   // Every iteration lowers the objective and no passive set repeats; the limit is only for rounding errors.
   for (std::size_t turn = 0; turn < 3 * sites.size(); ++turn) {
