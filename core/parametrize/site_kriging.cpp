@@ -32,11 +32,14 @@ double way_to(const KrigingSite& site, std::span<const double> from) {
 }
 
 std::vector<double> covariances(std::span<const KrigingSite> sites, double unit, const KrigingKernel& kernel) {
-  std::vector<double> matrix;
-  for (const KrigingSite& a : sites) {
-    for (const KrigingSite& b : sites) {
-      // Points of touching lips may be at one place; the diagonal keeps the matrix definite.
-      matrix.push_back(&a == &b ? 1.0 + 1e-9 : kernel.at(glm::distance(a.position, b.position) / unit));
+  const std::size_t count = sites.size();
+  std::vector<double> matrix(count * count);
+  for (std::size_t a = 0; a < count; ++a) {
+    // Points of touching lips may be at one place; the diagonal keeps the matrix definite.
+    matrix[a * count + a] = 1.0 + 1e-9;
+    for (std::size_t b = 0; b < a; ++b) {
+      const double covariance = kernel.at(glm::distance(sites[a].position, sites[b].position) / unit);
+      matrix[a * count + b] = matrix[b * count + a] = covariance;
     }
   }
   return matrix;
