@@ -12,6 +12,8 @@ namespace {
 
 /// Sets with fewer vertices are not divided.
 constexpr std::size_t least_divided = 12;
+/// Of the diagonal: what is left of it is not less, whatever rounding does.
+constexpr double least_pivot = 1e-14;
 
 class Dissection {
  public:
@@ -94,11 +96,11 @@ SparseCholesky::SparseCholesky(const SparseMatrix& matrix, std::vector<std::uint
     std::for_each(pattern.rbegin(), pattern.rend(), [&](std::uint32_t i) {
       const double value = rest[i] / diagonal_[i];
       rest[i] = 0.0;
-      for (const Entry& entry : columns_[i]) rest[entry.row] -= static_cast<double>(entry.value) * value;
+      for (const Entry& entry : columns_[i]) rest[entry.row] -= entry.value * value;
       left -= value * value;
-      columns_[i].push_back({k, static_cast<float>(value)});
+      columns_[i].push_back({k, value});
     });
-    diagonal_[k] = std::sqrt(left);
+    diagonal_[k] = std::sqrt(std::max(left, least_pivot * matrix.diagonal[k]));
     is_done[k] = true;
   }
 }
@@ -111,12 +113,14 @@ void SparseCholesky::solve(std::span<glm::vec4> rows, std::size_t width) const {
   for (const std::uint32_t k : order_) {
     scale(k);
     for (const Entry& entry : columns_[k]) {
-      for (std::size_t b = 0; b < width; ++b) rows[entry.row * width + b] -= entry.value * rows[k * width + b];
+      const auto value = static_cast<float>(entry.value);
+      for (std::size_t b = 0; b < width; ++b) rows[entry.row * width + b] -= value * rows[k * width + b];
     }
   }
   std::for_each(order_.rbegin(), order_.rend(), [&](std::uint32_t k) {
     for (const Entry& entry : columns_[k]) {
-      for (std::size_t b = 0; b < width; ++b) rows[k * width + b] -= entry.value * rows[entry.row * width + b];
+      const auto value = static_cast<float>(entry.value);
+      for (std::size_t b = 0; b < width; ++b) rows[k * width + b] -= value * rows[entry.row * width + b];
     }
     scale(k);
   });

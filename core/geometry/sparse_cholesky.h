@@ -29,6 +29,7 @@ struct SparseMatrix {
 std::vector<std::uint32_t> dissection_order(const SparseMatrix& matrix, std::span<const glm::dvec3> positions);
 
 /// Cholesky's factor of a positive definite matrix: exact solutions, after one factorization for all right-hand sides.
+/// The factor is in double precision, since entries of very short edges are a million times the others.
 class SparseCholesky {
  public:
   /// `order`: of the elimination, a permutation of the rows.
@@ -41,7 +42,7 @@ class SparseCholesky {
  private:
   struct Entry {
     std::uint32_t row;
-    float value;
+    double value;
   };
   std::vector<std::uint32_t> order_;
   std::vector<double> diagonal_;             ///< by row

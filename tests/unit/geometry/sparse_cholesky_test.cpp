@@ -17,11 +17,15 @@ struct GridSystem {
   Surface surface;
   SparseMatrix matrix;
 
-  explicit GridSystem(std::uint32_t side) : surface(build_surface(testing::make_grid(side, side))) {
+  /// `strength`: of the edges between the vertices of the first rows.
+  explicit GridSystem(std::uint32_t side, double strength = 1.0)
+      : surface(build_surface(testing::make_grid(side, side))) {
+    const std::uint32_t strong = 3 * side;
     for (std::uint32_t v = 0; v < surface.vertex_count(); ++v) {
       double sum = 0.01;
       for (const Surface::Step& step : surface.steps_from(SurfaceVertexId(v))) {
-        const double weight = 1.0 + 0.1 * static_cast<double>((v + step.to.value()) % 7);
+        const double weight = (1.0 + 0.1 * static_cast<double>((v + step.to.value()) % 7)) *
+                              (std::max(v, step.to.value()) < strong ? strength : 1.0);
         sum += weight;
         matrix.entries.push_back({step.to.value(), -weight});
       }
@@ -66,6 +70,14 @@ TEST(SparseCholesky, SolutionsOfAGrid_SolveTheEquationsInAnyOrder) {
     EXPECT_EQ(order, rising) << side;
     EXPECT_LT(residual(system, rising), 1e-3) << side;
   }
+}
+
+TEST(SparseCholesky, EdgesAMillionTimesAsStrong_LeaveTheOthersExact) {
+  const GridSystem system(20, 1e6);
+  // What the diagonal has beyond a row's edges, so that each solution is one.
+  std::vector<glm::vec4> rows(system.matrix.diagonal.size(), glm::vec4(0.01F));
+  SparseCholesky(system.matrix, dissection_order(system.matrix, system.surface.positions)).solve(rows, 1);
+  for (const glm::vec4& row : rows) EXPECT_NEAR(row.x, 1.0F, 1e-3F);
 }
 
 }  // namespace
