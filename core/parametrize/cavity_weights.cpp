@@ -58,7 +58,7 @@ class Diffusion {
     std::vector<glm::dvec3> positions;
     for (std::uint32_t m = 0; m < members; ++m) {
       const auto links = links_of(m);
-      const float pull = static_cast<float>(links.size()) * pull_[m];
+      const float pull = static_cast<float>(std::max<std::size_t>(links.size(), 1)) * pull_[m];
       double all = pull;
       for (std::size_t b = 0; b < blocks_; ++b) rows_[m * blocks_ + b] *= pull;
       for (const Link& link : links) {
