@@ -3,7 +3,7 @@ import { eventually } from './support/patience.ts';
 import { StudioPage } from './support/studio_page.ts';
 import { browser, server, useStudio } from './support/suite.ts';
 
-useStudio();
+useStudio({ demo: false });
 
 interface Point {
   distanceTo(other: Point): number;

@@ -5,7 +5,7 @@ import { eventually } from './support/patience.ts';
 import { StudioPage, type Inside } from './support/studio_page.ts';
 import { browser, server, useStudio } from './support/suite.ts';
 
-useStudio();
+useStudio({ demo: false });
 
 type Position = [number, number, number];
 

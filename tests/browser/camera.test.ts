@@ -8,7 +8,7 @@ const known = (
   JSON.parse(readFileSync(samplePoints, 'utf8')) as { points: Record<string, { position: [number, number, number] }> }
 ).points;
 
-useStudio();
+useStudio({ demo: false });
 
 /** Where a position of the head is in the picture: 0 to 1 from the upper left. */
 async function inPicture(studio: StudioPage, position: readonly number[]): Promise<{ x: number; y: number }> {

@@ -23,7 +23,7 @@ interface Comparison {
   moved: number;
 }
 
-useStudio();
+useStudio({ demo: false });
 
 type Edit = { viseme?: number; expression?: number; faps?: Record<number, number> };
 

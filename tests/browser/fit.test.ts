@@ -16,7 +16,7 @@ interface ModelPart {
 
 const scratch = mkdtempSync(join(tmpdir(), 'semblante-fit-'));
 
-useStudio();
+useStudio({ demo: false });
 
 /** A ball as an OBJ file with one duplicate triangle. */
 function damagedBall(): string {
@@ -195,7 +195,6 @@ describe('fit', () => {
     const studio = await StudioPage.open(browser, server.url);
     const { page } = studio;
     await studio.waitForStage('ready');
-    await page.getByRole('button', { name: 'Pause the stream' }).click();
     const shown = (): Promise<number> =>
       page.evaluate(() => (window as unknown as Inside).semblante.scene.face!.mesh.vertexCount);
     const full = await shown();

@@ -2,7 +2,7 @@ import { describe, expect, test } from 'vitest';
 import { phone, StudioPage } from './support/studio_page.ts';
 import { browser, server, useStudio } from './support/suite.ts';
 
-useStudio();
+useStudio({ demo: false });
 
 interface Page {
   semblante: {

@@ -3,7 +3,7 @@ import { eventually } from './support/patience.ts';
 import { phone, StudioPage, type Inside } from './support/studio_page.ts';
 import { browser, server, useStudio } from './support/suite.ts';
 
-useStudio();
+useStudio({ demo: false });
 
 /** Opens the sample with its influence view, the face at rest in the hand. */
 async function open(options: { width?: number; height?: number; dark?: boolean } = {}): Promise<StudioPage> {

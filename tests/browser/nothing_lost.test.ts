@@ -8,7 +8,7 @@ const known = (
   JSON.parse(readFileSync(samplePoints, 'utf8')) as { points: Record<string, { position: [number, number, number] }> }
 ).points;
 
-useStudio();
+useStudio({ demo: false });
 
 const selected = (studio: StudioPage): Promise<string> =>
   studio.page.evaluate(() => (window as unknown as Inside).semblante.studio.selected.value!.id);

@@ -14,7 +14,7 @@ interface Points {
 const scratch = mkdtempSync(join(tmpdir(), 'semblante-points-'));
 const known = (JSON.parse(readFileSync(samplePoints, 'utf8')) as Points).points;
 
-useStudio();
+useStudio({ demo: false });
 
 /** The points of the open head that are stored on the server. */
 async function stored(studio: StudioPage): Promise<Points['points']> {

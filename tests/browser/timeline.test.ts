@@ -10,7 +10,7 @@ import { browser, server, useStudio } from './support/suite.ts';
 
 const scratch = mkdtempSync(join(tmpdir(), 'semblante-timeline-'));
 
-useStudio();
+useStudio({ demo: false });
 afterAll(() => rmSync(scratch, { recursive: true, force: true }));
 
 interface Cue {
