@@ -63,8 +63,18 @@ std::vector<SurfaceVertexId> sockets_of(const Surface& surface, PartId part, con
   }
   const std::size_t enough = (teeth.size() + 9) / 10;
   if (near.size() < enough) return {};
+  // Likewise most of the part is far from the teeth, the skin of a face above all.
+  Box of_teeth;
+  for (const glm::dvec3& t : near) of_teeth.add(t);
+  std::vector<SurfaceVertexId> around;
   std::vector<glm::dvec3> positions;
-  for (const SurfaceVertexId v : members) positions.push_back(surface.positions[v.value()]);
+  for (const SurfaceVertexId v : members) {
+    const glm::dvec3& p = surface.positions[v.value()];
+    if (!of_teeth.is_within(p, touch)) continue;
+    around.push_back(v);
+    positions.push_back(p);
+  }
+  if (around.empty()) return {};
   const NearestPoint near_part(positions);
   std::size_t touching = 0;
   for (const glm::dvec3& t : near) {
@@ -76,14 +86,10 @@ std::vector<SurfaceVertexId> sockets_of(const Surface& surface, PartId part, con
   if (touching < enough) return {};
 
   const NearestPoint near_teeth(near);
-  Box of_teeth;
-  for (const glm::dvec3& t : near) of_teeth.add(t);
   std::vector<SurfaceVertexId> sockets;
-  for (std::size_t m = 0; m < members.size(); ++m) {
+  for (std::size_t i = 0; i < around.size(); ++i) {
     // Half the distance, because the borders of the tongue are close to the teeth too.
-    const double reach = 0.5 * touch;
-    if (of_teeth.is_within(positions[m], reach) && near_teeth.has_within(positions[m], reach))
-      sockets.push_back(members[m]);
+    if (near_teeth.has_within(positions[i], 0.5 * touch)) sockets.push_back(around[i]);
   }
   return sockets;
 }

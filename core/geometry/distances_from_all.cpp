@@ -251,10 +251,17 @@ double* allocate_lanes(std::size_t count) {
 
 void DistancesFromAll::Free::operator()(double* lanes) const { std::free(lanes); }
 
-void DistancesFromAll::read_row(std::size_t member, std::span<double> row) const {
-  assert(row.size() == lane_of_.size());
-  const double* const from = lanes_.get() + vertex_of_[member] * lane_count;
-  for (std::size_t source = 0; source < row.size(); ++source) row[source] = from[lane_of_[source]];
+void DistancesFromAll::read_rows(std::span<double> rows) const {
+  const std::size_t sources = lane_of_.size();
+  assert(rows.size() == vertex_of_.size() * sources);
+  std::vector<std::uint32_t> member_of(vertex_of_.size());
+  for (std::uint32_t m = 0; m < vertex_of_.size(); ++m) member_of[vertex_of_[m]] = m;
+  // In the order of the lanes, whose parts of a row lie far from each other: only whole rows are written out of order.
+  for (std::size_t vertex = 0; vertex < member_of.size(); ++vertex) {
+    const double* const from = lanes_.get() + vertex * DistanceGroup::lane_count;
+    double* const row = rows.data() + member_of[vertex] * sources;
+    for (std::size_t source = 0; source < sources; ++source) row[source] = from[lane_of_[source]];
+  }
 }
 
 DistancesFromAll distances_from_all(const Surface& graph, PartId part, std::span<const SurfaceVertexId> sources,

@@ -17,8 +17,8 @@ class DistancesFromAll {
   [[nodiscard]] double at(std::size_t source, std::size_t member) const {
     return lanes_[lane_of_[source] + vertex_of_[member] * DistanceGroup::lane_count];
   }
-  /// Distances from every source to one member; `row` has one element per source.
-  void read_row(std::size_t member, std::span<double> row) const;
+  /// Distances from every source to every member: `rows` is #M x #sources, row by row.
+  void read_rows(std::span<double> rows) const;
 
  private:
   friend DistancesFromAll distances_from_all(const Surface&, PartId, std::span<const SurfaceVertexId>,

@@ -17,10 +17,9 @@ PointDistances measure_distances(const Surface& graph, PartId part, std::span<co
   }
   const std::size_t count = result.points.size();
   const DistancesFromAll all = distances_from_all(graph, part, sources);
-  result.to_members = std::make_unique_for_overwrite<double[]>(result.members.size() * count);
-  for (std::size_t m = 0; m < result.members.size(); ++m) {
-    all.read_row(m, std::span(&result.to_members[m * count], count));
-  }
+  const std::size_t cells = result.members.size() * count;
+  result.to_members = std::make_unique_for_overwrite<double[]>(cells);
+  all.read_rows(std::span(result.to_members.get(), cells));
   // Sums of lengths from either end may differ in the last bit; d_ij is the one from the lower id.
   result.between.resize(count * count);
   for (std::size_t j = 0; j < count; ++j) {
