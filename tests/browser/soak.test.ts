@@ -7,7 +7,7 @@ import { browser, server, useStudio } from './support/suite.ts';
 
 /** How long the studio is used; without it, the few rounds that show what grows with each of them. */
 const seconds = Number(process.env['SEMBLANTE_SOAK_SECONDS'] ?? 0);
-const fewRounds = 3;
+const fewRounds = 2;
 /** First rounds, which fill caches: compiled shaders, texts, the tabs' code. */
 const warmUp = 2;
 
