@@ -237,7 +237,7 @@ TEST_F(PlaceOnAClosedMouth, BetweenVertices_EachPointIsOnItsOwnLip) {
   const auto placed = place({at_position("2.2", {0.3, 0.05, 0.02}), at_position("2.3", {0.3, -0.15, 0.02})});
   for (const auto& [name, upper] : {std::pair("2.2", true), std::pair("2.3", false)}) {
     const auto point =
-        std::find_if(placed.begin(), placed.end(), [&](const FeaturePoint& one) { return one.id == fp(name); });
+        std::find_if(placed.begin(), placed.end(), [id = fp(name)](const FeaturePoint& one) { return one.id == id; });
     ASSERT_NE(point, placed.end());
     ASSERT_TRUE(point->between) << name;
     const Triangle& triangle = mouth_.model.triangles[point->between->triangle];
