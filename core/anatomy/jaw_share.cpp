@@ -63,7 +63,7 @@ std::vector<SurfaceVertexId> sockets_of(const Surface& surface, PartId part, con
   }
   const std::size_t enough = (teeth.size() + 9) / 10;
   if (near.size() < enough) return {};
-  // Likewise most of the part is far from the teeth, the skin of a face above all.
+  // Likewise only vertices at the box of these teeth: most of the skin of a face is far from them.
   Box of_teeth;
   for (const glm::dvec3& t : near) of_teeth.add(t);
   std::vector<SurfaceVertexId> around;

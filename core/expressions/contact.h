@@ -33,7 +33,7 @@ inline constexpr double most_to_teeth = 2.5;
 void follow_near_brows(std::vector<Displacement>& displacements, const FeaturePointSet& points);
 
 /// Moves a cheek partly as the near corner of the mouth beside it (`cheeks_beside_near_corners`), where the set moves
-/// both: the cheeks of the library's sets are far from the corners.
+/// both: the library's sets are made for faces whose cheeks are far from the corners.
 void follow_near_corners(std::vector<Displacement>& displacements, const FeaturePointSet& points);
 
 /// Lids do not open (3.1 and 3.2 not up, 3.3 and 3.4 not down): eyes that are closed on the neutral face stay so in

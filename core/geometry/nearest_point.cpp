@@ -71,7 +71,7 @@ NearestPoint::Hit NearestPoint::nearest(const glm::dvec3& to) const {
 }
 
 double NearestPoint::square_within(const glm::dvec3& to, double bound) const {
-  // Equal to the bound is not nearer: index 0 has no lower one.
+  // No index is below 0, so a point as far as the bound does not count as nearer.
   std::uint32_t index = 0;
   search(0, nodes_.size(), 0, to, index, bound);
   return bound;

@@ -12,7 +12,7 @@ namespace {
 
 /// Sets with fewer vertices are not divided.
 constexpr std::size_t least_divided = 12;
-/// Of the diagonal: what is left of it is not less, whatever rounding does.
+/// A pivot is at least this share of the diagonal entry: rounding may not make it zero or negative.
 constexpr double least_pivot = 1e-14;
 
 class Dissection {
@@ -68,9 +68,9 @@ std::vector<std::uint32_t> dissection_order(const SparseMatrix& matrix, std::spa
   return order;
 }
 
-// Row by row. Row k of the factor has an entry in column i if the matrix has one, or if an earlier column that does has
-// an entry in row i: these are the columns on the ways from the matrix's entries from each column to its first row
-// below the diagonal.
+// Up-looking: row by row. The columns that have an entry in row k are found along the elimination tree, in which the
+// parent of a column is the first row below its diagonal: those of the matrix's entries in row k, and their ancestors
+// before k.
 SparseCholesky::SparseCholesky(const SparseMatrix& matrix, std::vector<std::uint32_t> order)
     : order_(std::move(order)), diagonal_(order_.size()), columns_(order_.size()) {
   constexpr std::uint32_t none = 0xFFFFFFFFU;

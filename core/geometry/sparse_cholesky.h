@@ -9,15 +9,15 @@
 
 namespace semblante {
 
-/// A symmetric matrix with few entries beside its diagonal: one row a vertex, one entry a neighbour.
+/// A sparse symmetric matrix: a row for each vertex, an entry beside the diagonal for each of its neighbours.
 struct SparseMatrix {
   struct Entry {
     std::uint32_t column;
     double value;
   };
   std::vector<double> diagonal;
-  std::vector<std::uint32_t> offsets{0};  ///< by row, one more
-  std::vector<Entry> entries;             ///< each from either side, none on the diagonal
+  std::vector<std::uint32_t> offsets{0};  ///< by row: where its entries begin; at the end, their number
+  std::vector<Entry> entries;             ///< both of each pair of neighbours, none of the diagonal
 
   [[nodiscard]] std::span<const Entry> row(std::size_t at) const {
     return std::span(entries).subspan(offsets[at], offsets[at + 1] - offsets[at]);
@@ -45,7 +45,7 @@ class SparseCholesky {
     double value;
   };
   std::vector<std::uint32_t> order_;
-  std::vector<double> diagonal_;             ///< by row
+  std::vector<double> diagonal_;             ///< of the factor, by row
   std::vector<std::vector<Entry>> columns_;  ///< below the diagonal, rows in the order of elimination
 };
 

@@ -277,9 +277,9 @@ class Diffusion {
   std::vector<Goal> goals_;       ///< of the members of a mouth
   std::vector<SurfaceVertexId> in_front_;
   std::vector<double> distance_;  ///< of the members from the rim
-  std::vector<float> pull_;       ///< of the members, towards what they follow far from the rim
+  std::vector<float> pull_;       ///< of the members: how strongly each is pulled to its row in rows_
   std::vector<Block> rim_rows_;
-  std::vector<Block> rows_;  ///< of the members: what they are pulled to, then the solution
+  std::vector<Block> rows_;  ///< of the members: what each is pulled to, then the solution
 };
 
 }  // namespace

@@ -9,6 +9,11 @@
 namespace semblante {
 namespace {
 
+/// Steps of a KernelTable.
+constexpr std::size_t table_steps = 512;
+/// Nearer than this many steps the kernel is too sharp for interpolation.
+constexpr std::size_t sharp_steps = 12;
+
 /// Detour = distance along the surface / straight distance. Lips and lids nearly touch, so that by the straight
 /// distance alone one would move the other; the path around the corner is long. Full weight below the first value, none
 /// above the second. Paths along edges are up to 50 % too long on a flat quad mesh, hence the lower bound.
@@ -89,12 +94,6 @@ std::vector<KrigingSite> edge_sites(const Surface& surface, const PointDistances
 
 double KrigingKernel::at(double distance) const { return std::exp(-std::pow(distance / length, power)); }
 double KrigingKernel::reach() const { return length * std::pow(-std::log(least), 1.0 / power); }
-
-namespace {
-constexpr std::size_t table_steps = 512;
-/// Nearer than this many steps the kernel is too sharp for interpolation.
-constexpr std::size_t sharp_steps = 12;
-}  // namespace
 
 KernelTable::KernelTable(const KrigingKernel& kernel)
     : kernel_(kernel), steps_per_unit_(static_cast<double>(table_steps) / kernel.reach()) {

@@ -113,8 +113,7 @@ void WeightPrior::correct(WeightRow& row, const glm::dvec3& position, const Plac
       if (places[correction.point].vertex != nowhere) change[correction.point] += amount * correction.factor;
     }
   };
-  double off_edges = 1.0;
-  for (std::size_t a = 0; a < count; ++a) off_edges -= shares[a] * edge_points()[ids[a]];
+  const double off_edges = share_off_edges(row);
   for (std::size_t a = 0; a < count; ++a) {
     const std::size_t i = ids[a];
     for (std::size_t b = a + 1; b < count; ++b) {

@@ -38,8 +38,8 @@ class WeightPrior {
     std::int16_t hundredths;
   };
   static constexpr std::size_t root = feature_point_count;
-  static constexpr std::size_t first_axis = root + 1;           ///< x; y and z follow
-  static constexpr std::size_t first_product = first_axis + 3;  ///< xx; yy, zz, xy, xz and yz follow
+  static constexpr std::size_t first_axis = root + 1;           ///< of the offset along x; those along y and z follow
+  static constexpr std::size_t first_product = first_axis + 3;  ///< of its square; yy, zz, xy, xz, yz follow
   static constexpr std::size_t column_count = first_product + 6;
   /// Offsets from a point are multiples of this, in ES0.
   static constexpr double offset_unit = 1.0 / 3.0;
