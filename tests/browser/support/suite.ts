@@ -12,7 +12,8 @@ export let browser: Browser;
 let started: Promise<Browser> | undefined;
 
 async function sharedBrowser(): Promise<Browser> {
-  if (!(await started)?.isConnected()) started = launch();
+  const running = await started?.catch(() => undefined); // one that did not start is tried again by the next file
+  if (!running?.isConnected()) started = launch();
   return started!;
 }
 
