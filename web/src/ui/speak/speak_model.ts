@@ -192,7 +192,7 @@ export class SpeakModel {
   }
 
   private forget(): void {
-    // First: the browser may still be loading the sound of what is removed.
+    // Before the speech is removed: the browser may still be loading its sound.
     this.sound.removeAttribute('src');
     this.sound.load();
     if (this.take) this.remove(this.take.speech);
