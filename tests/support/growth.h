@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <ctime>
 #include <limits>
 #include <malloc.h>
 #include <string>
@@ -10,14 +9,9 @@
 
 #include <gtest/gtest.h>
 
-namespace semblante::test {
+#include "tests/support/thread_time.h"
 
-/// Processor time of this thread so far, in ms: it does not depend on what else the machine does.
-inline double thread_cpu_ms() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
-}
+namespace semblante::test {
 
 /// Sizes of the inputs of expect_linear(), in whatever `make` counts.
 struct Growth {

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <functional>
 #include <limits>
 #include <queue>
@@ -20,23 +19,17 @@
 #include "core/parametrize/place_feature_points.h"
 #include "tests/oracle/real_heads.h"
 #include "tests/support/meshes.h"
+#include "tests/support/thread_time.h"
 
 namespace semblante {
 namespace {
 
-/// Processor time of this thread: what other programs take does not count, though they still cost cache.
-double now() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
 double best_of(int turns, const std::function<void()>& work) {
   double best = std::numeric_limits<double>::infinity();
   for (int turn = 0; turn < turns; ++turn) {
-    const double before = now();
+    const double before = test::thread_cpu_ms();
     work();
-    best = std::min(best, now() - before);
+    best = std::min(best, 1e-3 * (test::thread_cpu_ms() - before));
   }
   return best;
 }

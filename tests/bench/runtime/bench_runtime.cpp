@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <ctime>
 #include <fstream>
 #include <functional>
 #include <iterator>
@@ -19,6 +18,7 @@
 #include "protocol/cpp/packed_codec.h"
 #include "tests/bench/coding/training.h"
 #include "tests/support/frame_encoder.h"
+#include "tests/support/thread_time.h"
 
 namespace semblante::bench {
 namespace {
@@ -32,19 +32,13 @@ void check(bool holds, const char* what) {
   if (!holds) throw std::runtime_error(what);
 }
 
-double cpu_ms() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_nsec) / 1e6;
-}
-
 /// ms of `work`, the best of `rounds`.
 double best(int rounds, const std::function<void()>& work) {
   double least = 1e300;
   for (int i = 0; i < rounds; ++i) {
-    const double begin = cpu_ms();
+    const double begin = test::thread_cpu_ms();
     work();
-    least = std::min(least, cpu_ms() - begin);
+    least = std::min(least, test::thread_cpu_ms() - begin);
   }
   return least;
 }
@@ -237,7 +231,7 @@ void many_faces(const Package& package, const Speech& speech, std::size_t count)
     }
     std::vector<float> positions;
     if (kind.vertices) positions.resize(std::size_t{semblante_head_vertex_count(heads[0])} * 3);
-    const double begin = cpu_ms();
+    const double begin = test::thread_cpu_ms();
     const double step = kind.plays ? display : batch;
     for (double since = 0; since < seconds * 1000; since += step) {
       for (std::size_t i = 0; i < faces; ++i) {
@@ -247,7 +241,7 @@ void many_faces(const Package& package, const Speech& speech, std::size_t count)
         if (kind.vertices) semblante_head_positions(heads[i], positions.data(), positions.size());
       }
     }
-    const double ms = (cpu_ms() - begin) / static_cast<double>(faces) / seconds;
+    const double ms = (test::thread_cpu_ms() - begin) / static_cast<double>(faces) / seconds;
     std::printf("| %s%s | %.1f | %.0f | %.1f |\n", kind.name, kind.vertices ? " (a twentieth as many)" : "", ms * 1000,
                 1000 / ms, static_cast<double>(memory() - before) / 1000 / static_cast<double>(faces));
     for (semblante_head* head : heads) semblante_head_destroy(head);

@@ -1,7 +1,6 @@
 // Weights against what real faces do, and what they cost: two tables on standard output.
 
 #include <cstdio>
-#include <ctime>
 #include <filesystem>
 #include <map>
 #include <numeric>
@@ -19,6 +18,7 @@
 #include "tests/bench/weights/expression_study.h"
 #include "tests/bench/weights/fitted_shares.h"
 #include "tests/bench/weights/smooth_shares.h"
+#include "tests/support/thread_time.h"
 
 namespace semblante::bench {
 namespace {
@@ -111,20 +111,13 @@ void print_regions(const char* head, const ExpressionStudy& study, const WeightP
   print_region_row("least of 4 influences", error_by_region(study, best_shares(study, 4)));
 }
 
-/// Processor time of this thread: what other programs take does not count.
-double now() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
 template <class Work>
 double seconds(Work work) {
   double best = 1e9;
   for (int turn = 0; turn < 3; ++turn) {
-    const double before = now();
+    const double before = test::thread_cpu_ms();
     work();
-    best = std::min(best, now() - before);
+    best = std::min(best, 1e-3 * (test::thread_cpu_ms() - before));
   }
   return best;
 }
