@@ -1,12 +1,11 @@
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import type { Browser } from 'playwright-core';
-import { afterAll, afterEach, beforeAll, expect, test } from 'vitest';
+import { afterAll, afterEach, expect, test } from 'vitest';
 import { vowel } from '../unit/ts/support/voice.ts';
 import { eventually } from './support/patience.ts';
-import { startServer, type RunningServer } from './support/server.ts';
-import { launch, StudioPage } from './support/studio_page.ts';
+import { StudioPage } from './support/studio_page.ts';
+import { browser, server, useStudio } from './support/suite.ts';
 
 const rate = 48_000;
 
@@ -41,26 +40,15 @@ interface Inside {
   };
 }
 
-let folder: string;
-let server: RunningServer;
-let browser: Browser;
+const folder = mkdtempSync(join(tmpdir(), 'semblante-voice-'));
+const heard = join(folder, 'voice.wav');
+writeFileSync(heard, voice());
+afterAll(() => rmSync(folder, { recursive: true, force: true }));
+
 let studio: StudioPage;
 
-beforeAll(async () => {
-  folder = mkdtempSync(join(tmpdir(), 'semblante-voice-'));
-  const file = join(folder, 'voice.wav');
-  writeFileSync(file, voice());
-  [server, browser] = await Promise.all([
-    startServer({ demo: false }),
-    launch(['--use-fake-device-for-media-stream', `--use-file-for-fake-audio-capture=${file}`]),
-  ]);
-});
+useStudio({ demo: false }, ['--use-fake-device-for-media-stream', `--use-file-for-fake-audio-capture=${heard}`]);
 afterEach(async () => studio?.close());
-afterAll(async () => {
-  await browser?.close();
-  await server?.stop();
-  rmSync(folder, { recursive: true, force: true });
-});
 
 async function open(): Promise<StudioPage> {
   const page = await StudioPage.open(browser, server.url);

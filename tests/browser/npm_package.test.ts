@@ -9,7 +9,7 @@ import { afterAll, beforeAll, expect, test } from 'vitest';
 import { buildDir, root } from './support/paths.ts';
 import { patience } from './support/patience.ts';
 import { startServer, type RunningServer } from './support/server.ts';
-import { launch } from './support/studio_page.ts';
+import { browser, useBrowser } from './support/suite.ts';
 import { everyVariant } from './support/variants.ts';
 
 /** Does not block: the runner asks for signs of life. */
@@ -20,6 +20,7 @@ let project: string;
 let unpacked: string;
 let server: RunningServer;
 
+useBrowser();
 beforeAll(async () => {
   project = mkdtempSync(join(tmpdir(), 'semblante-npm-'));
   const folder = join(project, 'made');
@@ -243,9 +244,8 @@ console.log(JSON.stringify([take.frames.length, take.frames[5].state.viseme, jaw
 
 /** Opens a page of the project, which the real server serves, waits until its face moves, and does more with it. */
 async function moves(path: string, origin = server.url, more?: (page: Page) => Promise<void>): Promise<void> {
-  const browser = await launch();
+  const page = await browser.newPage();
   try {
-    const page = await browser.newPage();
     page.setDefaultTimeout(patience);
     const errors: string[] = [];
     page.on('pageerror', (error) => errors.push(String(error)));
@@ -260,7 +260,7 @@ async function moves(path: string, origin = server.url, more?: (page: Page) => P
     });
     expect(errors).toEqual([]);
   } finally {
-    await browser.close();
+    await page.close();
   }
 }
 
@@ -454,7 +454,7 @@ document.addEventListener('statechange', ({ target, detail }) => detail.state ==
 test('Package_PageOfAnotherOrigin_SaysInTheConsoleHowItIsAllowed', async () => {
   const face = `<semblante-face src="${server.url}" stream="demo"></semblante-face>`;
   writeFileSync(join(project, 'foreign.html'), `<!doctype html>${face}<script type="module" src="node_modules/semblante/dist/element.js"></script>`);
-  const [other, browser] = await Promise.all([startServer({ pages: project, demo: false }), launch()]);
+  const other = await startServer({ pages: project, demo: false });
   try {
     const page = await browser.newPage();
     const isHint = (text: string): boolean => text.endsWith(`semblante serve --allow-origin ${other.url}`);
@@ -462,7 +462,7 @@ test('Package_PageOfAnotherOrigin_SaysInTheConsoleHowItIsAllowed', async () => {
     await page.goto(`${other.url}/foreign.html`, { timeout: patience });
     expect((await hint).type()).toBe('warning');
   } finally {
-    await Promise.all([browser.close(), other.stop()]);
+    await other.stop();
   }
 });
 

@@ -9,7 +9,7 @@ import { rigFapus, type RigDocument, type Vec3 } from '../../protocol/ts/index.t
 import { buildDir } from './support/paths.ts';
 import { patience } from './support/patience.ts';
 import type { GoldenMesh } from './support/golden_page.ts';
-import { launch } from './support/studio_page.ts';
+import { browser, useBrowser } from './support/suite.ts';
 
 const here = (path: string): string => fileURLToPath(new URL(path, import.meta.url));
 
@@ -116,6 +116,8 @@ async function poses(): Promise<Record<keyof Pose, number[]>[]> {
   );
 }
 
+useBrowser();
+
 test('Shader_GoldenFrames_GiveTheGoldenVertices', async () => {
   const bundle = await build({
     entryPoints: [here('support/golden_page.ts')],
@@ -125,27 +127,22 @@ test('Shader_GoldenFrames_GiveTheGoldenVertices', async () => {
     nodePaths: [here('../../web/node_modules')],
     alias: { '@client': here('../../clients/js') },
   });
-  const browser = await launch();
-  try {
-    const page = await browser.newPage();
-    page.setDefaultTimeout(patience);
-    const errors: string[] = [];
-    page.on('console', (message) => void (message.type() === 'error' && errors.push(message.text())));
-    page.on('pageerror', (error) => errors.push(String(error)));
-    await page.addScriptTag({ content: bundle.outputFiles[0]!.text });
-    const found = await page.evaluate(
-      ([mesh, all]) =>
-        (window as unknown as { deformAll(mesh: unknown, poses: unknown): number[][] }).deformAll(mesh, all),
-      [meshOf(golden), await poses()] as const,
-    );
-    expect(errors).toEqual([]);
-    const expected = [...golden.cases, ...golden.interpolations];
-    expect(found.length).toBe(expected.length);
-    expected.forEach(({ positions, ...rest }, i) => {
-      const worst = Math.max(...positions.map((x, k) => Math.abs(x - found[i]![k]!)));
-      expect(worst, 'name' in rest ? rest.name : `${rest.from} to ${rest.to}`).toBeLessThanOrEqual(golden.tolerance.position);
-    });
-  } finally {
-    await browser.close();
-  }
+  const page = await browser.newPage();
+  page.setDefaultTimeout(patience);
+  const errors: string[] = [];
+  page.on('console', (message) => void (message.type() === 'error' && errors.push(message.text())));
+  page.on('pageerror', (error) => errors.push(String(error)));
+  await page.addScriptTag({ content: bundle.outputFiles[0]!.text });
+  const found = await page.evaluate(
+    ([mesh, all]) =>
+      (window as unknown as { deformAll(mesh: unknown, poses: unknown): number[][] }).deformAll(mesh, all),
+    [meshOf(golden), await poses()] as const,
+  );
+  expect(errors).toEqual([]);
+  const expected = [...golden.cases, ...golden.interpolations];
+  expect(found.length).toBe(expected.length);
+  expected.forEach(({ positions, ...rest }, i) => {
+    const worst = Math.max(...positions.map((x, k) => Math.abs(x - found[i]![k]!)));
+    expect(worst, 'name' in rest ? rest.name : `${rest.from} to ${rest.to}`).toBeLessThanOrEqual(golden.tolerance.position);
+  });
 });

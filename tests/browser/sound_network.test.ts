@@ -5,13 +5,13 @@ import { copyFileSync, mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { build } from 'esbuild';
-import type { Browser, Page } from 'playwright-core';
+import type { Page } from 'playwright-core';
 import { afterAll, beforeAll, expect, test } from 'vitest';
 import { BadNetwork } from './support/network.ts';
 import { buildDir, root } from './support/paths.ts';
 import { eventually, patience } from './support/patience.ts';
 import { startServer, type RunningServer } from './support/server.ts';
-import { launch } from './support/studio_page.ts';
+import { browser, useBrowser } from './support/suite.ts';
 
 const measured = process.env['SEMBLANTE_SOUND_SECONDS'];
 const seconds = Number(measured ?? 12);
@@ -110,23 +110,19 @@ export async function watch() {
 `;
 
 let server: RunningServer;
-let browser: Browser;
 let network: BadNetwork;
 let pages: string;
 
+useBrowser(['--autoplay-policy=no-user-gesture-required']);
 beforeAll(async () => {
   pages = mkdtempSync(join(tmpdir(), 'semblante-talk-'));
   await build({ stdin: { contents: script, resolveDir: root }, outfile: join(pages, 'talk.js'), bundle: true, format: 'iife', globalName: 'talk', target: 'es2022' });
   writeFileSync(join(pages, 'talk.html'), '<!doctype html><title>Talk</title><script src="talk.js"></script>');
   copyFileSync(join(buildDir, 'wasm/semblante_view.wasm'), join(pages, 'semblante_view.wasm'));
-  [server, browser] = await Promise.all([
-    startServer({ demo: false, pages, voice: join(root, 'server/voice/examples/beeps.py') }),
-    launch(['--autoplay-policy=no-user-gesture-required']),
-  ]);
+  server = await startServer({ demo: false, pages, voice: join(root, 'server/voice/examples/beeps.py') });
   network = await BadNetwork.before(server, kind);
 });
 afterAll(async () => {
-  await browser?.close();
   network?.close();
   await server?.stop();
   rmSync(pages, { recursive: true, force: true });

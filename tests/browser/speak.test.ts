@@ -1,30 +1,22 @@
 import { join } from 'node:path';
-import type { Browser } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, expect, test } from 'vitest';
 import { root } from './support/paths.ts';
 import { startServer, type RunningServer } from './support/server.ts';
-import { launch, StudioPage, type OpenOptions } from './support/studio_page.ts';
+import { StudioPage, type OpenOptions } from './support/studio_page.ts';
+import { browser, server, useStudio } from './support/suite.ts';
 
 /** A voice of tones: the same sound and times everywhere. */
 const beeps = join(root, 'server/voice/examples/beeps.py');
 
-let server: RunningServer;
 let mute: RunningServer;
-let browser: Browser;
 let studio: StudioPage;
 
+useStudio({ demo: false, voice: beeps });
 beforeAll(async () => {
-  [server, mute, browser] = await Promise.all([
-    startServer({ demo: false, voice: beeps }),
-    startServer({ demo: false }),
-    launch(),
-  ]);
+  mute = await startServer({ demo: false });
 });
 afterEach(async () => studio?.close());
-afterAll(async () => {
-  await browser?.close();
-  await Promise.all([server?.stop(), mute?.stop()]);
-});
+afterAll(() => mute?.stop());
 
 interface Inside {
   semblante: {

@@ -4,7 +4,7 @@ import { within } from './patience.ts';
 import { startServer, type RunningServer, type ServerOptions } from './server.ts';
 import { launch } from './studio_page.ts';
 
-/** Of the test file that called `useStudio`, while its tests run. */
+/** Of the test file that called `useStudio` or `useBrowser`, while its tests run. */
 export let server: RunningServer;
 export let browser: Browser;
 
@@ -17,13 +17,23 @@ async function sharedBrowser(): Promise<Browser> {
   return started!;
 }
 
-/** Gives the tests of a file a server and a browser without pages, and stops and closes them after. */
-export function useStudio(options: ServerOptions = {}): void {
+/** Gives the tests of a file a browser without pages, and closes them after. With arguments of Chromium it is the file's own. */
+export function useBrowser(args: string[] = []): void {
+  const isOwn = args.length > 0;
   beforeAll(async () => {
-    [server, browser] = await Promise.all([startServer(options), sharedBrowser()]);
+    browser = await (isOwn ? launch(args) : sharedBrowser());
   });
   afterAll(async () => {
-    await within('the pages are closed', Promise.all(browser?.contexts().map((context) => context.close()) ?? []));
-    await within('the server stops', Promise.resolve(server?.stop()));
+    const closed = isOwn ? [browser?.close()] : (browser?.contexts() ?? []).map((context) => context.close());
+    await within('the pages are closed', Promise.all(closed));
   });
+}
+
+/** Gives the tests of a file a server too, and stops it after them. */
+export function useStudio(options: ServerOptions = {}, args: string[] = []): void {
+  beforeAll(async () => {
+    server = await startServer(options);
+  });
+  afterAll(() => within('the server stops', Promise.resolve(server?.stop())));
+  useBrowser(args); // hooks run backwards after the tests: the pages close before their server stops
 }
