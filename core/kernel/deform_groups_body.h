@@ -1,5 +1,6 @@
-/* Internal: Eq. 7, local motions and the head's motion for groups of eight vertices. The including file defines
- * SEMBLANTE_LANES, the number of floats per register (4 or 8), and SEMBLANTE_DEFORM_GROUPS, the name of the function.
+/* Internal: Eq. 7, local motions and the head's motion for groups of vertices. The including file defines
+ * SEMBLANTE_LANES, the number of floats per register (4, 8 or 16), SEMBLANTE_GROUP, the vertices of a group, and
+ * SEMBLANTE_DEFORM_GROUPS, the name of the function.
  * Every lane adds the same terms as semblante_deform in the same order, so that all variants are bit-identical to it.
  */
 #include "core/kernel/lane_motions.h"
@@ -12,9 +13,22 @@
 typedef float loose_quad __attribute__((vector_size(16), aligned(4), may_alias));
 typedef float quad __attribute__((vector_size(16)));
 
-/* Stores x, y, z of four (or eight) vertices as x y z x y z ... Shuffles stay within 128 bits as far as possible. */
+/* Stores x, y, z of the vertices of a register as x y z x y z ... Four and eight: shuffles stay within 128 bits as far
+ * as possible. Sixteen: a permutation that merges x and y, and one that puts z between. */
 static inline __attribute__((always_inline)) void store_rows(reg x, reg y, reg z, float* to) {
-#if SEMBLANTE_LANES == 8
+#if SEMBLANTE_LANES == 16
+  /* 0..15: of the first operand, 16..31: of the second; z's places in `xy` are free. */
+  static const int32_t xy[3][16] = {{0, 16, 0, 1, 17, 0, 2, 18, 0, 3, 19, 0, 4, 20, 0, 5},
+                                    {21, 0, 6, 22, 0, 7, 23, 0, 8, 24, 0, 9, 25, 0, 10, 26},
+                                    {0, 11, 27, 0, 12, 28, 0, 13, 29, 0, 14, 30, 0, 15, 31, 0}};
+  static const int32_t xy_z[3][16] = {{0, 1, 16, 3, 4, 17, 6, 7, 18, 9, 10, 19, 12, 13, 20, 15},
+                                      {0, 21, 2, 3, 22, 5, 6, 23, 8, 9, 24, 11, 12, 25, 14, 15},
+                                      {26, 1, 2, 27, 4, 5, 28, 7, 8, 29, 10, 11, 30, 13, 14, 31}};
+  for (int i = 0; i < 3; ++i) {
+    const __m512 both = _mm512_permutex2var_ps((__m512)x, _mm512_loadu_si512(xy[i]), (__m512)y);
+    _mm512_storeu_ps(to + i * 16, _mm512_permutex2var_ps(both, _mm512_loadu_si512(xy_z[i]), (__m512)z));
+  }
+#elif SEMBLANTE_LANES == 8
   const reg xy = __builtin_shufflevector(x, y, 0, 2, 8, 10, 4, 6, 12, 14);
   const reg yz = __builtin_shufflevector(y, z, 1, 3, 9, 11, 5, 7, 13, 15);
   const reg zx = __builtin_shufflevector(z, x, 0, 2, 9, 11, 4, 6, 13, 15);
@@ -50,9 +64,9 @@ static inline __attribute__((always_inline)) reg lid_weights(const reg* weights,
   return at == SEMBLANTE_NO_POINT ? (reg){0} : weights[at * REGISTERS + r];
 }
 
-/* With eight lanes, a copy of these formulas in every loop gains a twentieth of the time; with four it gains nothing,
- * and the WebAssembly module is to stay small. */
-#if SEMBLANTE_LANES == 8
+/* With eight lanes or more, a copy of these formulas in every loop gains a twentieth of the time; with four it gains
+ * nothing, and the WebAssembly module is to stay small. */
+#if SEMBLANTE_LANES >= 8
 #define EACH_FUNCTION LANE_FUNCTION
 #else
 #define EACH_FUNCTION static __attribute__((noinline))
@@ -83,8 +97,8 @@ static __attribute__((noinline)) void roll_tongue(const semblante_pose* pose, co
 
 /* The head's motion where vertices of one register have different shares of it. */
 EACH_FUNCTION void turn_each(const semblante_rigid_motion* head, const float rotation[4], ints turn, reg p[3]) {
-  const mask fully = turn == SEMBLANTE_TURN_FULL;
-  const mask partly = (turn != SEMBLANTE_TURN_FULL) & (turn != 0);
+  const mask fully = equals(turn, SEMBLANTE_TURN_FULL);
+  const mask partly = ~(fully | equals(turn, 0));
   const reg before[3] = {p[0], p[1], p[2]};
   if (any(fully)) {
     reg q[3] = {before[0], before[1], before[2]};
@@ -104,16 +118,16 @@ static __attribute__((noinline)) void move_each(const semblante_prepared_face* f
                                                 uint32_t first, const reg* rest, reg p[3]) {
   const uint8_t* const rigid = face->rigid + first;
   const ints parts = load_bytes(rigid);
-  if (any(parts != SEMBLANTE_RIGID_NONE)) {
+  if (any(~equals(parts, SEMBLANTE_RIGID_NONE))) {
     const semblante_pose* const of = pose->local.pose;
     const reg own_rest[3] = {rest[r], rest[REGISTERS + r], rest[2 * REGISTERS + r]};
     for (int eye = 0; eye < 2; ++eye) {
-      const mask lids = parts == SEMBLANTE_RIGID_LEFT_LIDS + eye;
+      const mask lids = equals(parts, SEMBLANTE_RIGID_LEFT_LIDS + eye);
       if (any(lids)) {
         roll_register(&pose->local.lids[eye], lids, weights, r, lid_points + 2 * eye, rest, p);
       }
-      const mask iris = parts == SEMBLANTE_RIGID_LEFT_IRIS + eye;
-      const mask ball = iris | (parts == SEMBLANTE_RIGID_LEFT_EYE + eye);
+      const mask iris = equals(parts, SEMBLANTE_RIGID_LEFT_IRIS + eye);
+      const mask ball = iris | equals(parts, SEMBLANTE_RIGID_LEFT_EYE + eye);
       if ((pose->iris_moves[eye] || pose->eye_moves[eye]) && any(ball)) {
         reg q[3] = {p[0], p[1], p[2]};
         move_iris(&of->iris[eye], of->eye_pivot[eye], of->pupil_growth[eye], own_rest, q);
@@ -216,8 +230,8 @@ static inline __attribute__((always_inline)) void deform_run(const semblante_pre
         for (uint32_t r = 0; r < REGISTERS; ++r) {
           if (then == AFTER_LIDS) {
             const uint32_t eye = run->part == SEMBLANTE_GROUP_RIGHT_LIDS;
-            const mask where =
-                load_bytes(face->rigid + first[g] + r * SEMBLANTE_LANES) == (int32_t)(SEMBLANTE_RIGID_LEFT_LIDS + eye);
+            const mask where = equals(load_bytes(face->rigid + first[g] + r * SEMBLANTE_LANES),
+                                      (int32_t)(SEMBLANTE_RIGID_LEFT_LIDS + eye));
             roll_register(&pose->local.lids[eye], where, weights, r, lids + g * 4U + eye * 2U, rest, p[r]);
             if (pose->head_moves) {
               move_rigidly(&head, 0, p[r]);

@@ -5,22 +5,26 @@
 const semblante_deform_variant* semblante_deform_variants(uint32_t* count) {
   static const semblante_deform_variant variants[] = {
 #if defined(__aarch64__)
-    {"NEON", semblante_deform_groups_plain},
+    {"NEON", 8, semblante_deform_groups_plain},
 #elif defined(__wasm_simd128__)
-    {"SIMD128", semblante_deform_groups_plain},
+    {"SIMD128", 8, semblante_deform_groups_plain},
 #elif defined(__SSE2__)
-    {"SSE2", semblante_deform_groups_plain},
+    {"SSE2", 8, semblante_deform_groups_plain},
 #else
-    {"plain", semblante_deform_groups_plain},
+    {"plain", 8, semblante_deform_groups_plain},
 #endif
 #if defined(__x86_64__)
-    {"AVX2", semblante_deform_groups_avx2},
+    {"AVX2", 8, semblante_deform_groups_avx2},
+    {"AVX-512", 16, semblante_deform_groups_avx512},
 #endif
   };
   *count = sizeof variants / sizeof variants[0];
 #if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx2") == 0) {
+  if (__builtin_cpu_supports("avx512f") == 0) {
     --*count;
+    if (__builtin_cpu_supports("avx2") == 0) {
+      --*count;
+    }
   }
 #endif
   return variants;
@@ -66,9 +70,13 @@ void semblante_deform_by(const semblante_deform_variant* variant, const semblant
   variant->run(face, &prepared, positions);
 }
 
-static semblante_deform_groups best(void) {
+/* The fastest variant for the groups of a face. */
+static semblante_deform_groups best(const semblante_prepared_face* face) {
   uint32_t count = 0;
   const semblante_deform_variant* const variants = semblante_deform_variants(&count);
+  while (variants[count - 1].group_size != face->group_size) {
+    --count;
+  }
   return variants[count - 1].run;
 }
 
@@ -76,7 +84,7 @@ SEMBLANTE_EXPORT(semblante_deform_prepared)
 void semblante_deform_prepared(const semblante_prepared_face* face, const semblante_pose* pose, float* positions) {
   semblante_group_pose prepared;
   prepare_pose(pose, &prepared);
-  best()(face, &prepared, positions);
+  best(face)(face, &prepared, positions);
 }
 
 /* Whether eyes, pupils, lids or tongue differ, that is, all members of a pose except the points and the head. */
@@ -105,5 +113,5 @@ uint32_t semblante_deform_changed(const semblante_prepared_face* face, const sem
   prepared.head_changed = differ(&prepared.head.change[0][0], &previous.head.change[0][0], 9) ||
                           (prepared.head_moves && differ(prepared.head.pivot, previous.head.pivot, 3));
   prepared.local_changed = parts_differ(before, now);
-  return best()(face, &prepared, positions);
+  return best(face)(face, &prepared, positions);
 }

@@ -55,8 +55,8 @@ LANE_FUNCTION void move_iris(const semblante_iris* iris, const float pivot[3], f
   const reg r = square_root(dot_product(out, out));
   /* The vertex moves outwards by stretch * r. */
   const reg ring = growth * (iris->iris_radius - r) / ((iris->iris_radius - iris->pupil_radius) * r);
-  const reg stretch = choose(r < iris->pupil_radius, all_lanes(growth / iris->pupil_radius),
-                             choose(r < iris->iris_radius, ring, all_lanes(0.0F)));
+  const reg stretch = choose(less(r, all_lanes(iris->pupil_radius)), all_lanes(growth / iris->pupil_radius),
+                             choose(less(r, all_lanes(iris->iris_radius)), ring, all_lanes(0.0F)));
   /* bend * ((r + stretch r)^2 - r^2) */
   const reg sink = iris->bend * (r * r) * (stretch * (2.0F + stretch));
   for (int i = 0; i < 3; ++i) {
@@ -69,7 +69,7 @@ LANE_FUNCTION reg radius_towards(const semblante_lids* lids, const float pole[3]
   const float last = (float)(SEMBLANTE_BALL_PLACES - 1);
   const reg at = square_root(1.0F - within(dot_with(d, pole) / distance, 0.0F, 1.0F)) * last;
   /* Not a number counts as the equator, so that the look-up stays within the table. */
-  const ints k = whole(choose(at < last, at, all_lanes(last - 1.0F)));
+  const ints k = whole(choose(less(at, all_lanes(last)), at, all_lanes(last - 1.0F)));
   reg here;
   reg next;
   look_up_two(lids->ball, k, &here, &next);
@@ -78,6 +78,7 @@ LANE_FUNCTION reg radius_towards(const semblante_lids* lids, const float pole[3]
 
 /* Moves p away from the ball to the vertex's clearance. `way`: by which its height changes. */
 LANE_FUNCTION void clear_ball(const semblante_lid_roll* roll, mask where, reg way, const reg rest[3], reg p[3]) {
+  const reg zero = all_lanes(0.0F);
   const semblante_lids* const lids = roll->lids;
   const float radius = lids->ball[SEMBLANTE_BALL_PLACES - 1];
   const float wanted = roll->clearance;
@@ -86,27 +87,28 @@ LANE_FUNCTION void clear_ball(const semblante_lid_roll* roll, mask where, reg wa
   }
   const reg d[3] = {p[0] - roll->ball_center[0], p[1] - roll->ball_center[1], p[2] - roll->ball_center[2]};
   const reg square_distance = dot_product(d, d);
-  where &= square_distance < roll->square_reach;
+  where &= less(square_distance, all_lanes(roll->square_reach));
   if (!any(where)) {
     return;
   }
   const reg r[3] = {rest[0] - roll->pivot[0], rest[1] - roll->pivot[1], rest[2] - roll->pivot[2]};
   const reg at_rest = square_root(dot_product(r, r));
   const reg distance = square_root(square_distance);
-  where &= (at_rest > 0.0F) & (distance > 0.0F);
+  where &= less(zero, at_rest) & less(zero, distance);
   const reg own = at_rest - radius_towards(lids, lids->gaze, r, at_rest);
-  const reg gained = (choose(way < 0.0F, -way, way) / radius + roll->swing) / SEMBLANTE_LID_GAIN_OVER;
+  const reg gained = (choose(less(way, zero), -way, way) / radius + roll->swing) / SEMBLANTE_LID_GAIN_OVER;
   const reg grown = own + within(gained, 0.0F, 1.0F) * (wanted - own);
   /* What lies deeper on the neutral face is the inside of a lid: hidden. */
-  const reg clearance = choose(own >= wanted, all_lanes(wanted), choose(own > -wanted, grown, own));
+  const reg clearance =
+      choose(at_least(own, all_lanes(wanted)), all_lanes(wanted), choose(less(all_lanes(-wanted), own), grown, own));
   const reg least = radius_towards(lids, roll->pole, d, distance) + clearance;
-  where &= distance < least;
+  where &= less(distance, least);
   if (!any(where)) {
     return;
   }
   /* Forwards, so that the height stays that of Eq. 7; at the border of the ball away from its centre. */
   const reg square = least * least - d[0] * d[0] - d[1] * d[1];
-  const mask forwards = (d[2] > 0.0F) & (square > 0.25F * least * least);
+  const mask forwards = less(zero, d[2]) & less(0.25F * least * least, square);
   const reg share = (least - distance) / distance;
   const reg cleared[3] = {choose(forwards, p[0], p[0] + d[0] * share), choose(forwards, p[1], p[1] + d[1] * share),
                           p[2] + choose(forwards, square_root(square) - d[2], d[2] * share)};
@@ -122,7 +124,7 @@ LANE_FUNCTION void roll_lids(const semblante_lid_roll* roll, mask where, reg upp
     return;
   }
   if (!roll->moves) { /* what is at rest stays bit for bit */
-    where &= (p[0] != rest[0]) | (p[1] != rest[1]) | (p[2] != rest[2]);
+    where &= differs(p[0], rest[0]) | differs(p[1], rest[1]) | differs(p[2], rest[2]);
     if (!any(where)) {
       return;
     }
@@ -132,14 +134,14 @@ LANE_FUNCTION void roll_lids(const semblante_lid_roll* roll, mask where, reg upp
     q[i] = p[i] - (upper * roll->upper[i] + lower * roll->lower[i]);
   }
   const reg way = roll->lids->opening * (lower * roll->closure[1] - upper * roll->closure[0]);
-  const mask rises = where & (way != 0.0F);
+  const mask rises = where & differs(way, all_lanes(0.0F));
   if (any(rises)) {
     const reg y = q[1] - roll->pivot[1];
     const reg z = q[2] - roll->pivot[2];
     const reg least = SEMBLANTE_LID_NEAREST * square_root(y * y + z * z);
     const reg square = y * y + z * z - (y + way) * (y + way);
-    const reg slid = q[2] + (choose(square > least * least, square_root(square), least) - z);
-    q[2] = choose(rises & (z > least), slid, q[2]); /* what lies behind the axis does not slide */
+    const reg slid = q[2] + (choose(less(least * least, square), square_root(square), least) - z);
+    q[2] = choose(rises & less(least, z), slid, q[2]); /* what lies behind the axis does not slide */
   }
   q[1] += way;
   clear_ball(roll, where, way, rest, q);

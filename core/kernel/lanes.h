@@ -1,12 +1,13 @@
 /* Internal: numbers of SEMBLANTE_LANES vertices at once, one vertex per lane of a register. The including file defines
- * SEMBLANTE_LANES as 1 (plain floats), 4 (SSE2, NEON, WebAssembly SIMD) or 8 (AVX2). A formula that is written with
- * these types gives the same bits with every number of lanes: each lane does the same operations in the same order. */
+ * SEMBLANTE_LANES as 1 (plain floats), 4 (SSE2, NEON, WebAssembly SIMD), 8 (AVX2) or 16 (AVX-512). A formula that is
+ * written with these types gives the same bits with every number of lanes: each lane does the same operations in the
+ * same order. */
 #ifndef SEMBLANTE_KERNEL_LANES_H
 #define SEMBLANTE_KERNEL_LANES_H
 
 #include <stdint.h>
 
-#if SEMBLANTE_LANES == 8
+#if SEMBLANTE_LANES >= 8
 #include <immintrin.h>
 #elif SEMBLANTE_LANES == 4 && defined(__SSE2__)
 #include <emmintrin.h>
@@ -18,18 +19,45 @@
 
 #if SEMBLANTE_LANES == 1
 typedef float reg;
-typedef int32_t mask; /* by lane: a comparison of two `reg`s */
 typedef int32_t ints;
+typedef int32_t mask; /* which lanes: by less() and its like; combined with & and | */
 #else
 typedef float reg __attribute__((vector_size(4 * SEMBLANTE_LANES)));
-typedef int32_t mask __attribute__((vector_size(4 * SEMBLANTE_LANES)));
 typedef int32_t ints __attribute__((vector_size(4 * SEMBLANTE_LANES)));
+#if SEMBLANTE_LANES == 16
+typedef __mmask16 mask;
+#else
+typedef ints mask;
+#endif
+#endif
+
+LANE_FUNCTION reg all_lanes(float x) {
+#if SEMBLANTE_LANES == 1
+  return x;
+#else
+  return x - (reg){0}; /* x itself, also minus zero */
+#endif
+}
+
+/* Comparisons, of which none but `differs` holds for what is not a number. */
+#if SEMBLANTE_LANES == 16
+LANE_FUNCTION mask less(reg a, reg b) { return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_LT_OQ); }
+LANE_FUNCTION mask at_least(reg a, reg b) { return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_GE_OQ); }
+LANE_FUNCTION mask differs(reg a, reg b) { return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_NEQ_UQ); }
+LANE_FUNCTION mask equals(ints a, int32_t b) { return _mm512_cmpeq_epi32_mask((__m512i)a, _mm512_set1_epi32(b)); }
+#else
+LANE_FUNCTION mask less(reg a, reg b) { return a < b; }
+LANE_FUNCTION mask at_least(reg a, reg b) { return a >= b; }
+LANE_FUNCTION mask differs(reg a, reg b) { return a != b; }
+LANE_FUNCTION mask equals(ints a, int32_t b) { return a == b; }
 #endif
 
 /* The lanes of `yes` where `where` holds, those of `no` elsewhere. */
 LANE_FUNCTION reg choose(mask where, reg yes, reg no) {
 #if SEMBLANTE_LANES == 1
   return where ? yes : no;
+#elif SEMBLANTE_LANES == 16
+  return (reg)_mm512_mask_blend_ps(where, (__m512)no, (__m512)yes);
 #elif SEMBLANTE_LANES == 8
   return (reg)_mm256_blendv_ps((__m256)no, (__m256)yes, (__m256)where);
 #else
@@ -39,7 +67,7 @@ LANE_FUNCTION reg choose(mask where, reg yes, reg no) {
 
 /* Whether a mask holds in any lane. */
 LANE_FUNCTION int any(mask where) {
-#if SEMBLANTE_LANES == 1
+#if SEMBLANTE_LANES == 1 || SEMBLANTE_LANES == 16
   return where != 0;
 #elif SEMBLANTE_LANES == 8
   return _mm256_movemask_ps((__m256)where) != 0;
@@ -58,6 +86,8 @@ LANE_FUNCTION int any(mask where) {
 LANE_FUNCTION reg square_root(reg x) {
 #if SEMBLANTE_LANES == 1
   return __builtin_sqrtf(x);
+#elif SEMBLANTE_LANES == 16
+  return (reg)_mm512_sqrt_ps((__m512)x);
 #elif SEMBLANTE_LANES == 8
   return (reg)_mm256_sqrt_ps((__m256)x);
 #elif defined(__SSE2__)
@@ -105,6 +135,9 @@ LANE_FUNCTION void look_up_two(const float* from, ints index, reg* here, reg* ne
 #if SEMBLANTE_LANES == 1
   *here = from[index];
   *next = from[index + 1];
+#elif SEMBLANTE_LANES == 16
+  *here = (reg)_mm512_i32gather_ps((__m512i)index, from, 4);
+  *next = (reg)_mm512_i32gather_ps((__m512i)index, from + 1, 4);
 #elif SEMBLANTE_LANES == 8
   *here = (reg)_mm256_i32gather_ps(from, (__m256i)index, 4);
   *next = (reg)_mm256_i32gather_ps(from + 1, (__m256i)index, 4);
@@ -117,16 +150,9 @@ LANE_FUNCTION void look_up_two(const float* from, ints index, reg* here, reg* ne
 #endif
 }
 
-LANE_FUNCTION reg all_lanes(float x) {
-#if SEMBLANTE_LANES == 1
-  return x;
-#else
-  return (reg){0} + x;
-#endif
-}
-
 LANE_FUNCTION reg within(reg value, float low, float high) {
-  return choose(value < low, all_lanes(low), choose(value > high, all_lanes(high), value));
+  return choose(less(value, all_lanes(low)), all_lanes(low),
+                choose(less(all_lanes(high), value), all_lanes(high), value));
 }
 
 LANE_FUNCTION reg dot_product(const reg a[3], const reg b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }

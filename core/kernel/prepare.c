@@ -62,7 +62,7 @@ static uint32_t join_part(uint32_t part, int is_first, uint32_t own) {
   return (both & ~skin) == 0 ? SEMBLANTE_GROUP_NECK : SEMBLANTE_GROUP_MIXED;
 }
 
-static __attribute__((noinline)) group_facts facts_of(const semblante_face* face, uint32_t group) {
+static __attribute__((noinline)) group_facts facts_of(const semblante_face* face, uint32_t size, uint32_t group) {
   group_facts facts;
   facts.point_count = 0;
   facts.part = SEMBLANTE_GROUP_NONE;
@@ -71,9 +71,9 @@ static __attribute__((noinline)) group_facts facts_of(const semblante_face* face
   for (uint32_t fp = 0; fp < SEMBLANTE_FP_COUNT; ++fp) {
     used[fp] = 0;
   }
-  const uint32_t first = group * SEMBLANTE_GROUP;
+  const uint32_t first = group * size;
   const uint32_t left = face->vertex_count - first;
-  const uint32_t end = first + (left < SEMBLANTE_GROUP ? left : SEMBLANTE_GROUP);
+  const uint32_t end = first + (left < size ? left : size);
   for (uint32_t v = first; v < end; ++v) {
     facts.part = join_part(facts.part, v == first, part_of(rigid_of(face, v), turn_of(face, v)));
     for (uint32_t k = face->row_offsets[v]; k < face->row_offsets[v + 1]; ++k) {
@@ -83,7 +83,7 @@ static __attribute__((noinline)) group_facts facts_of(const semblante_face* face
       used[face->row_points[k]] = 1;
     }
   }
-  if (left < SEMBLANTE_GROUP) {
+  if (left < size) {
     facts.part = SEMBLANTE_GROUP_MIXED;
   }
   for (uint32_t fp = 0; fp < SEMBLANTE_FP_COUNT; ++fp) {
@@ -96,8 +96,8 @@ static __attribute__((noinline)) group_facts facts_of(const semblante_face* face
 
 static uint32_t key_of(const group_facts* facts) { return facts->part * (SEMBLANTE_FP_COUNT + 1) + facts->point_count; }
 
-static uint32_t group_count_of(const semblante_face* face) {
-  return face->vertex_count / SEMBLANTE_GROUP + (face->vertex_count % SEMBLANTE_GROUP != 0);
+static uint32_t group_count_of(const semblante_face* face, uint32_t size) {
+  return face->vertex_count / size + (face->vertex_count % size != 0);
 }
 
 static uint32_t window_end(uint32_t first, uint32_t groups) {
@@ -105,12 +105,12 @@ static uint32_t window_end(uint32_t first, uint32_t groups) {
 }
 
 /* Counts the groups of a window by key; false if the points of a row are not increasing. */
-static int count_keys(const semblante_face* face, uint32_t first, uint32_t end, uint16_t by_key[KEYS]) {
+static int count_keys(const semblante_face* face, uint32_t size, uint32_t first, uint32_t end, uint16_t by_key[KEYS]) {
   for (uint32_t key = 0; key < KEYS; ++key) {
     by_key[key] = 0;
   }
   for (uint32_t group = first; group < end; ++group) {
-    const group_facts facts = facts_of(face, group);
+    const group_facts facts = facts_of(face, size, group);
     if (!facts.rises) {
       return 0;
     }
@@ -132,13 +132,13 @@ static size_t place(size_t* end, size_t bytes) {
 }
 
 /* `end` is 0 if the points of a row are not increasing. */
-static layout lay_out(const semblante_face* face) {
+static layout lay_out(const semblante_face* face, uint32_t size) {
   layout l = {0};
-  const uint32_t groups = group_count_of(face);
+  const uint32_t groups = group_count_of(face, size);
   size_t united = 0;
   for (uint32_t first = 0; first < groups; first = window_end(first, groups)) {
     uint16_t by_key[KEYS];
-    if (!count_keys(face, first, window_end(first, groups), by_key)) {
+    if (!count_keys(face, size, first, window_end(first, groups), by_key)) {
       return l;
     }
     for (uint32_t key = 0; key < KEYS; ++key) {
@@ -149,34 +149,46 @@ static layout lay_out(const semblante_face* face) {
   place(&l.end, sizeof(semblante_prepared_face));
   l.runs = place(&l.end, l.run_count * sizeof(semblante_run));
   l.first = place(&l.end, groups * sizeof(uint32_t));
-  l.rest = place(&l.end, (size_t)groups * SEMBLANTE_GROUP * 3 * sizeof(float));
-  l.weights = place(&l.end, united * SEMBLANTE_GROUP * sizeof(float));
+  l.rest = place(&l.end, (size_t)groups * size * 3 * sizeof(float));
+  l.weights = place(&l.end, united * size * sizeof(float));
   l.points = place(&l.end, united);
   l.lids = place(&l.end, (size_t)groups * 4);
-  l.rigid = place(&l.end, (size_t)groups * SEMBLANTE_GROUP);
-  l.turn = place(&l.end, (size_t)groups * SEMBLANTE_GROUP);
+  l.rigid = place(&l.end, (size_t)groups * size);
+  l.turn = place(&l.end, (size_t)groups * size);
   return l;
 }
 
+/* The size of groups for the machine's widest registers. */
+static uint32_t best_size(void) {
+  uint32_t count = 0;
+  const semblante_deform_variant* const variants = semblante_deform_variants(&count);
+  return variants[count - 1].group_size;
+}
+
+size_t semblante_prepared_size_by(uint32_t group_size, const semblante_face* face) {
+  return lay_out(face, group_size).end;
+}
+
 SEMBLANTE_EXPORT(semblante_prepared_size)
-size_t semblante_prepared_size(const semblante_face* face) { return lay_out(face).end; }
+size_t semblante_prepared_size(const semblante_face* face) { return semblante_prepared_size_by(best_size(), face); }
 
 /* Minus zero becomes zero, as it does when Eq. 7 adds a displacement of zero: groups without points need no sum. */
-static void write_rest(const semblante_face* face, uint32_t group, float* rest) {
-  for (uint32_t lane = 0; lane < SEMBLANTE_GROUP; ++lane) {
-    const uint32_t v = group * SEMBLANTE_GROUP + lane;
+static void write_rest(const semblante_face* face, uint32_t size, uint32_t group, float* rest) {
+  for (uint32_t lane = 0; lane < size; ++lane) {
+    const uint32_t v = group * size + lane;
     for (uint32_t i = 0; i < 3; ++i) {
-      rest[i * SEMBLANTE_GROUP + lane] = v < face->vertex_count ? face->rest[(size_t)v * 3 + i] + 0.0F : 0.0F;
+      rest[i * size + lane] = v < face->vertex_count ? face->rest[(size_t)v * 3 + i] + 0.0F : 0.0F;
     }
   }
 }
 
-static void write_weights(const semblante_face* face, uint32_t group, const group_facts* facts, float* weights) {
-  for (uint32_t i = 0; i < facts->point_count * SEMBLANTE_GROUP; ++i) {
+static void write_weights(const semblante_face* face, uint32_t size, uint32_t group, const group_facts* facts,
+                          float* weights) {
+  for (uint32_t i = 0; i < facts->point_count * size; ++i) {
     weights[i] = 0.0F;
   }
-  for (uint32_t lane = 0; lane < SEMBLANTE_GROUP; ++lane) {
-    const uint32_t v = group * SEMBLANTE_GROUP + lane;
+  for (uint32_t lane = 0; lane < size; ++lane) {
+    const uint32_t v = group * size + lane;
     if (v >= face->vertex_count) {
       return;
     }
@@ -185,7 +197,7 @@ static void write_weights(const semblante_face* face, uint32_t group, const grou
       while (facts->points[at] != face->row_points[k]) {
         ++at;
       }
-      weights[at * SEMBLANTE_GROUP + lane] = face->row_weights[k];
+      weights[at * size + lane] = face->row_weights[k];
     }
   }
 }
@@ -203,11 +215,11 @@ static void write_lids(const group_facts* facts, uint8_t lids[4]) {
   }
 }
 
-SEMBLANTE_EXPORT(semblante_prepare)
-const semblante_prepared_face* semblante_prepare(const semblante_face* face, void* memory) {
+const semblante_prepared_face* semblante_prepare_by(uint32_t group_size, const semblante_face* face, void* memory) {
+  const uint32_t size = group_size;
   char* const base = memory;
-  const uint32_t groups = group_count_of(face);
-  const layout l = lay_out(face);
+  const uint32_t groups = group_count_of(face, size);
+  const layout l = lay_out(face, size);
   semblante_run* run = (semblante_run*)(base + l.runs);
   uint32_t* const first_vertex = (uint32_t*)(base + l.first);
   float* rest = (float*)(base + l.rest);
@@ -217,13 +229,13 @@ const semblante_prepared_face* semblante_prepare(const semblante_face* face, voi
   uint8_t* const rigid = (uint8_t*)(base + l.rigid);
   uint8_t* const turn = (uint8_t*)(base + l.turn);
   const semblante_prepared_face prepared = {
-      face->vertex_count, groups, l.run_count, run, first_vertex, rest, weights, points, lids, rigid, turn};
+      face->vertex_count, size, groups, l.run_count, run, first_vertex, rest, weights, points, lids, rigid, turn};
   *(semblante_prepared_face*)memory = prepared;
 
   for (uint32_t first = 0; first < groups; first = window_end(first, groups)) {
     const uint32_t end = window_end(first, groups);
     uint16_t slot[KEYS]; /* by key: index of its next group within the window */
-    count_keys(face, first, end, slot);
+    count_keys(face, size, first, end, slot);
     uint16_t taken = 0;
     for (uint32_t key = 0; key < KEYS; ++key) {
       const uint16_t here = slot[key];
@@ -236,27 +248,32 @@ const semblante_prepared_face* semblante_prepare(const semblante_face* face, voi
       }
     }
     for (uint32_t group = first; group < end; ++group) {
-      const group_facts facts = facts_of(face, group);
-      first_vertex[first + slot[key_of(&facts)]++] = group * SEMBLANTE_GROUP;
+      const group_facts facts = facts_of(face, size, group);
+      first_vertex[first + slot[key_of(&facts)]++] = group * size;
     }
     for (uint32_t at = first; at < end; ++at) {
-      const uint32_t group = first_vertex[at] / SEMBLANTE_GROUP;
-      const group_facts facts = facts_of(face, group);
-      write_rest(face, group, rest);
-      write_weights(face, group, &facts, weights);
+      const uint32_t group = first_vertex[at] / size;
+      const group_facts facts = facts_of(face, size, group);
+      write_rest(face, size, group, rest);
+      write_weights(face, size, group, &facts, weights);
       write_lids(&facts, lids);
       for (uint32_t k = 0; k < facts.point_count; ++k) {
         points[k] = facts.points[k];
       }
       lids += 4;
-      rest += (size_t)SEMBLANTE_GROUP * 3;
-      weights += (size_t)facts.point_count * SEMBLANTE_GROUP;
+      rest += (size_t)size * 3;
+      weights += (size_t)facts.point_count * size;
       points += facts.point_count;
     }
   }
-  for (uint32_t v = 0; v < groups * SEMBLANTE_GROUP; ++v) {
+  for (uint32_t v = 0; v < groups * size; ++v) {
     rigid[v] = v < face->vertex_count ? rigid_of(face, v) : SEMBLANTE_RIGID_NONE;
     turn[v] = v < face->vertex_count ? turn_of(face, v) : SEMBLANTE_TURN_FULL;
   }
   return (const semblante_prepared_face*)memory;
+}
+
+SEMBLANTE_EXPORT(semblante_prepare)
+const semblante_prepared_face* semblante_prepare(const semblante_face* face, void* memory) {
+  return semblante_prepare_by(best_size(), face, memory);
 }

@@ -6,8 +6,6 @@
 #include "core/kernel/rigid_motion.h"
 #include "core/kernel/semblante_prepared_face.h"
 
-#define SEMBLANTE_GROUP 8U /* vertices */
-
 /* The motion of a group's vertices after Eq. 7 and before the head's motion. */
 typedef enum semblante_group_part {
   SEMBLANTE_GROUP_NONE,
@@ -37,12 +35,13 @@ typedef struct semblante_run {
 /* Groups are stored run after run. Every array starts at a multiple of 64 bytes. */
 struct semblante_prepared_face {
   uint32_t vertex_count;
+  uint32_t group_size;  /* #L, the vertices of a group: 16 if the machine has registers of so many floats, else 8 */
   uint32_t group_count; /* #G; the last group is padded with vertices that are never written */
   uint32_t run_count;   /* #R */
   const semblante_run* runs;
   const uint32_t* first; /* #G: number of the group's first vertex */
-  const float* rest;     /* #G by 3 by 8: eight x, eight y, eight z */
-  const float* weights;  /* #U by 8: for each point of each group the weights of the group's vertices */
+  const float* rest;     /* #G by 3 by #L: all x of a group, all y, all z */
+  const float* weights;  /* #U by #L: for each point of each group the weights of the group's vertices */
   const uint8_t* points; /* #U, increasing within a group */
   const uint8_t* lids;   /* #G by 4: where the points of the lids are among the group's points; NO_POINT: nowhere */
   const uint8_t* rigid;  /* #V padded to whole groups, by vertex: SEMBLANTE_RIGID_* */
@@ -72,13 +71,18 @@ typedef uint32_t (*semblante_deform_groups)(const semblante_prepared_face* face,
 /* The loop compiled for one register size. */
 typedef struct semblante_deform_variant {
   const char* name;
+  uint32_t group_size; /* of the faces that it deforms */
   semblante_deform_groups run;
 } semblante_deform_variant;
 
-/* The *count variants that this machine supports, the fastest last. */
+/* The *count variants that this machine supports, the fastest last. Faces are prepared for that. */
 const semblante_deform_variant* semblante_deform_variants(uint32_t* count);
 
-/* semblante_deform_prepared by the given variant. */
+/* semblante_prepared_size and semblante_prepare for the variants of one size of groups, 8 or 16. */
+size_t semblante_prepared_size_by(uint32_t group_size, const semblante_face* face);
+const semblante_prepared_face* semblante_prepare_by(uint32_t group_size, const semblante_face* face, void* memory);
+
+/* semblante_deform_prepared by the given variant, of a face that is prepared for its size of groups. */
 void semblante_deform_by(const semblante_deform_variant* variant, const semblante_prepared_face* face,
                          const semblante_pose* pose, float* positions);
 
@@ -87,6 +91,8 @@ uint32_t semblante_deform_groups_plain(const semblante_prepared_face* face, cons
 #if defined(__x86_64__)
 uint32_t semblante_deform_groups_avx2(const semblante_prepared_face* face, const semblante_group_pose* pose,
                                       float* positions);
+uint32_t semblante_deform_groups_avx512(const semblante_prepared_face* face, const semblante_group_pose* pose,
+                                        float* positions);
 #endif
 
 #endif

@@ -37,8 +37,9 @@ struct Free {
 struct Prepared {
   std::unique_ptr<void, Free> memory;
   const semblante_prepared_face* face;
-  explicit Prepared(const semblante_face& from)
-      : memory(std::aligned_alloc(64, semblante_prepared_size(&from))), face(semblante_prepare(&from, memory.get())) {}
+  explicit Prepared(const semblante_face& from, std::uint32_t group_size)
+      : memory(std::aligned_alloc(64, semblante_prepared_size_by(group_size, &from))),
+        face(semblante_prepare_by(group_size, &from, memory.get())) {}
 
   /// Bytes that a frame reads of it.
   [[nodiscard]] std::size_t read_bytes() const {
@@ -46,8 +47,8 @@ struct Prepared {
     for (std::uint32_t r = 0; r < face->run_count; ++r) {
       points += std::size_t{face->runs[r].group_count} * face->runs[r].point_count;
     }
-    return points * (SEMBLANTE_GROUP * sizeof(float) + 1) + face->run_count * sizeof(semblante_run) +
-           face->group_count * (SEMBLANTE_GROUP * 3 * sizeof(float) + sizeof(std::uint32_t));
+    return points * (face->group_size * sizeof(float) + 1) + face->run_count * sizeof(semblante_run) +
+           face->group_count * (face->group_size * 3 * sizeof(float) + sizeof(std::uint32_t));
   }
 };
 
@@ -99,7 +100,10 @@ void check_scalar(const BenchHead& head, const std::vector<float>& scalar, const
 
 void print_row(const BenchHead& head, const char* method, double seconds) {
   const semblante_face face = head.face();
-  const Prepared prepared(face);
+  const Prepared eights(face, 8);
+  std::uint32_t count = 0;
+  const semblante_deform_variant* const variants = semblante_deform_variants(&count);
+  const Prepared widest(face, variants[count - 1].group_size);
   const semblante_pose pose = talking_pose(head, true);
   const semblante_pose still = talking_pose(head, false);
   const semblante_pose neutral = [] {
@@ -120,7 +124,7 @@ void print_row(const BenchHead& head, const char* method, double seconds) {
   volatile std::uint64_t sink = 0;
   std::vector<Way> ways;
   ways.push_back({"limit", [&] {
-                    sink = sink + stream(static_cast<const std::byte*>(prepared.memory.get()), prepared.read_bytes(),
+                    sink = sink + stream(static_cast<const std::byte*>(eights.memory.get()), eights.read_bytes(),
                                          reinterpret_cast<std::byte*>(out.data()), written);
                   }});
   ways.push_back({"scalar", [&] { scalar_deform(face, pose, out.data()); }});
@@ -129,12 +133,12 @@ void print_row(const BenchHead& head, const char* method, double seconds) {
                     product += rest;
                   }});
   ways.push_back({"rows", [&] { semblante_deform(&face, &pose, out.data()); }});
-  std::uint32_t count = 0;
-  const semblante_deform_variant* const variants = semblante_deform_variants(&count);
   for (std::uint32_t v = 0; v < count; ++v) {
-    ways.push_back({variants[v].name, [&, v] { semblante_deform_by(&variants[v], prepared.face, &pose, out.data()); }});
+    const semblante_prepared_face* const prepared = variants[v].group_size == 8 ? eights.face : widest.face;
+    ways.push_back(
+        {variants[v].name, [&, v, prepared] { semblante_deform_by(&variants[v], prepared, &pose, out.data()); }});
   }
-  ways.push_back({"changed", [&] { semblante_deform_changed(prepared.face, &neutral, &still, out.data()); }});
+  ways.push_back({"changed", [&] { semblante_deform_changed(widest.face, &neutral, &still, out.data()); }});
   ways[1].frame();
   check_scalar(head, out, expected);
   for (std::size_t w = 4; w + 1 < ways.size(); ++w) {
@@ -145,7 +149,7 @@ void print_row(const BenchHead& head, const char* method, double seconds) {
 
   std::printf("%-12s %-6s %7u %6.2f %5.1f | %6.1f |", head.name.c_str(), method, head.vertex_count(),
               static_cast<double>(head.points.size()) / head.vertex_count(),
-              static_cast<double>(prepared.read_bytes()) / head.vertex_count(), 1e6 * ways[0].best);
+              static_cast<double>(eights.read_bytes()) / head.vertex_count(), 1e6 * ways[0].best);
   for (std::size_t w = 1; w < ways.size(); ++w)
     std::printf(" %s %.2f", ways[w].name.c_str(), ways[w].best / ways[0].best);
   std::printf("\n");
@@ -184,7 +188,9 @@ int time_file(const char* name) {
   if (!in) return 1;
   semblante_pose pose;
   std::copy(pose_numbers.begin(), pose_numbers.end(), reinterpret_cast<float*>(&pose));
-  const Prepared prepared(head.face());
+  std::uint32_t count = 0;
+  const semblante_deform_variant* const variants = semblante_deform_variants(&count);
+  const Prepared prepared(head.face(), variants[count - 1].group_size);
   std::vector<float> out(head.rest.size());
   std::vector<Way> ways{{"native", [&] { semblante_deform_prepared(prepared.face, &pose, out.data()); }}};
   race(ways, 0.2);

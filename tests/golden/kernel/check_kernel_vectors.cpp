@@ -150,11 +150,13 @@ struct Checker {
   void check(const semblante_pose& pose, const json& golden) {
     std::vector<float> positions(rest.size());
     semblante_deform(&face, &pose, positions.data());
-    std::unique_ptr<void, void (*)(void*)> memory(std::aligned_alloc(64, semblante_prepared_size(&face)), std::free);
-    const semblante_prepared_face* const prepared = semblante_prepare(&face, memory.get());
     std::uint32_t count = 0;
     const semblante_deform_variant* const variants = semblante_deform_variants(&count);
     for (std::uint32_t v = 0; v < count; ++v) {
+      const std::uint32_t size = variants[v].group_size;
+      std::unique_ptr<void, void (*)(void*)> memory(std::aligned_alloc(64, semblante_prepared_size_by(size, &face)),
+                                                    std::free);
+      const semblante_prepared_face* const prepared = semblante_prepare_by(size, &face, memory.get());
       std::vector<float> found(rest.size());
       semblante_deform_by(&variants[v], prepared, &pose, found.data());
       same_bits = same_bits && std::memcmp(found.data(), positions.data(), found.size() * sizeof(float)) == 0;

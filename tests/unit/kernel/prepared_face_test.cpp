@@ -24,7 +24,7 @@ TEST(KernelPrepared_Variants, GiveTheBitsOfTheRows) {
   std::uint32_t count = 0;
   const semblante_deform_variant* const variants = semblante_deform_variants(&count);
   ASSERT_GE(count, 1U);
-  for (const std::uint32_t vertices : {1U, 7U, 8U, 9U, 64U, 1000U, 5003U}) {
+  for (const std::uint32_t vertices : {1U, 7U, 8U, 9U, 15U, 16U, 17U, 64U, 1000U, 5003U}) {
     const RandomFace face(vertices, vertices);
     const Prepared prepared(face.view());
     for (unsigned kind = 0; kind < RandomFace::pose_kinds; ++kind) {
@@ -32,8 +32,9 @@ TEST(KernelPrepared_Variants, GiveTheBitsOfTheRows) {
       std::vector<float> rows(vertices * 3U);
       semblante_deform(&face.view(), &pose, rows.data());
       for (std::uint32_t v = 0; v < count; ++v) {
+        const Prepared own(face.view(), variants[v].group_size);
         std::vector<float> found(vertices * 3U + 1, -7.0F);
-        semblante_deform_by(&variants[v], prepared.face, &pose, found.data());
+        semblante_deform_by(&variants[v], own.face, &pose, found.data());
         EXPECT_EQ(found.back(), -7.0F) << "wrote behind the last vertex";
         found.pop_back();
         EXPECT_TRUE(same_bits(found, rows)) << variants[v].name << ", " << vertices << " vertices, pose " << kind;
@@ -47,17 +48,21 @@ TEST(KernelPrepared_Variants, GiveTheBitsOfTheRows) {
 
 TEST(KernelPrepared_Changed, BringsAnyPoseToAnyOther) {
   const RandomFace face(3001, 5);
-  const Prepared prepared(face.view());
-  for (unsigned from = 0; from < RandomFace::pose_kinds; ++from) {
-    for (unsigned to = 0; to < RandomFace::pose_kinds; ++to) {
-      const semblante_pose before = face.pose(from);
-      const semblante_pose now = face.pose(to);
-      std::vector<float> found(face.view().vertex_count * 3U);
-      std::vector<float> all(found.size());
-      semblante_deform_prepared(prepared.face, &before, found.data());
-      semblante_deform_changed(prepared.face, &before, &now, found.data());
-      semblante_deform_prepared(prepared.face, &now, all.data());
-      EXPECT_TRUE(same_bits(found, all)) << from << " to " << to;
+  std::uint32_t count = 0;
+  const semblante_deform_variant* const variants = semblante_deform_variants(&count);
+  for (std::uint32_t v = 0; v < count; ++v) {
+    const Prepared prepared(face.view(), variants[v].group_size);  // of each size, the fastest variant is tested
+    for (unsigned from = 0; from < RandomFace::pose_kinds; ++from) {
+      for (unsigned to = 0; to < RandomFace::pose_kinds; ++to) {
+        const semblante_pose before = face.pose(from);
+        const semblante_pose now = face.pose(to);
+        std::vector<float> found(face.view().vertex_count * 3U);
+        std::vector<float> all(found.size());
+        semblante_deform_prepared(prepared.face, &before, found.data());
+        semblante_deform_changed(prepared.face, &before, &now, found.data());
+        semblante_deform_prepared(prepared.face, &now, all.data());
+        EXPECT_TRUE(same_bits(found, all)) << from << " to " << to << ", groups of " << variants[v].group_size;
+      }
     }
   }
 }

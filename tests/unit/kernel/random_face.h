@@ -8,8 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/kernel/semblante_kernel.h"
-#include "core/kernel/semblante_prepared_face.h"
+extern "C" {
+#include "core/kernel/prepared_layout.h"
+}
 
 namespace semblante::testing {
 
@@ -139,6 +140,10 @@ struct Prepared {
 
   explicit Prepared(const semblante_face& from)
       : memory(std::aligned_alloc(64, semblante_prepared_size(&from))), face(semblante_prepare(&from, memory.get())) {}
+
+  Prepared(const semblante_face& from, std::uint32_t group_size)
+      : memory(std::aligned_alloc(64, semblante_prepared_size_by(group_size, &from))),
+        face(semblante_prepare_by(group_size, &from, memory.get())) {}
 };
 
 }  // namespace semblante::testing
