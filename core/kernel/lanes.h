@@ -130,23 +130,31 @@ LANE_FUNCTION ints load_bytes(const uint8_t* from) {
 #endif
 }
 
-/* from[index] and from[index + 1] of each lane. */
+/* from[index] and from[index + 1] of each lane: `from` has 17 numbers. */
 LANE_FUNCTION void look_up_two(const float* from, ints index, reg* here, reg* next) {
 #if SEMBLANTE_LANES == 1
   *here = from[index];
   *next = from[index + 1];
 #elif SEMBLANTE_LANES == 16
-  *here = (reg)_mm512_i32gather_ps((__m512i)index, from, 4);
-  *next = (reg)_mm512_i32gather_ps((__m512i)index, from + 1, 4);
+  *here = (reg)_mm512_permutexvar_ps((__m512i)index, _mm512_loadu_ps(from));
+  *next = (reg)_mm512_permutexvar_ps((__m512i)index, _mm512_loadu_ps(from + 1));
 #elif SEMBLANTE_LANES == 8
-  *here = (reg)_mm256_i32gather_ps(from, (__m256i)index, 4);
-  *next = (reg)_mm256_i32gather_ps(from + 1, (__m256i)index, 4);
-#else
-  *here = *next = (reg){0};
-  for (int lane = 0; lane < SEMBLANTE_LANES; ++lane) {
-    (*here)[lane] = from[index[lane]];
-    (*next)[lane] = from[index[lane] + 1];
+  const mask high = index > 7;
+  for (int i = 0; i < 2; ++i) {
+    const __m256 low = _mm256_permutevar8x32_ps(_mm256_loadu_ps(from + i), (__m256i)index);
+    const __m256 rest = _mm256_permutevar8x32_ps(_mm256_loadu_ps(from + i + 8), (__m256i)index);
+    *(i == 0 ? here : next) = choose(high, (reg)rest, (reg)low);
   }
+#else
+  typedef float two __attribute__((vector_size(8)));
+  two pair[4];
+  for (int lane = 0; lane < 4; ++lane) {
+    __builtin_memcpy(&pair[lane], from + index[lane], sizeof pair[lane]);
+  }
+  const reg first = __builtin_shufflevector(pair[0], pair[1], 0, 1, 2, 3);
+  const reg second = __builtin_shufflevector(pair[2], pair[3], 0, 1, 2, 3);
+  *here = __builtin_shufflevector(first, second, 0, 2, 4, 6);
+  *next = __builtin_shufflevector(first, second, 1, 3, 5, 7);
 #endif
 }
 
