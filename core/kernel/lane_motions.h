@@ -80,7 +80,6 @@ LANE_FUNCTION reg radius_towards(const semblante_lids* lids, const float pole[3]
 LANE_FUNCTION void clear_ball(const semblante_lid_roll* roll, mask where, reg way, const reg rest[3], reg p[3]) {
   const reg zero = all_lanes(0.0F);
   const semblante_lids* const lids = roll->lids;
-  const float radius = lids->ball[SEMBLANTE_BALL_PLACES - 1];
   const float wanted = roll->clearance;
   if (!(wanted > 0.0F)) {
     return;
@@ -96,7 +95,7 @@ LANE_FUNCTION void clear_ball(const semblante_lid_roll* roll, mask where, reg wa
   const reg distance = square_root(square_distance);
   where &= less(zero, at_rest) & less(zero, distance);
   const reg own = at_rest - radius_towards(lids, lids->gaze, r, at_rest);
-  const reg gained = (choose(less(way, zero), -way, way) / radius + roll->swing) / SEMBLANTE_LID_GAIN_OVER;
+  const reg gained = choose(less(way, zero), -way, way) * roll->gain + roll->gained;
   const reg grown = own + within(gained, 0.0F, 1.0F) * (wanted - own);
   /* What lies deeper on the neutral face is the inside of a lid: hidden. */
   const reg clearance =
@@ -138,10 +137,11 @@ LANE_FUNCTION void roll_lids(const semblante_lid_roll* roll, mask where, reg upp
   if (any(rises)) {
     const reg y = q[1] - roll->pivot[1];
     const reg z = q[2] - roll->pivot[2];
-    const reg least = SEMBLANTE_LID_NEAREST * square_root(y * y + z * z);
+    const reg least = (SEMBLANTE_LID_NEAREST * SEMBLANTE_LID_NEAREST) * (y * y + z * z); /* depth, squared */
     const reg square = y * y + z * z - (y + way) * (y + way);
-    const reg slid = q[2] + (choose(less(least * least, square), square_root(square), least) - z);
-    q[2] = choose(rises & less(least, z), slid, q[2]); /* what lies behind the axis does not slide */
+    const reg slid = q[2] + (square_root(choose(less(least, square), square, least)) - z);
+    /* What lies behind the axis does not slide. */
+    q[2] = choose(rises & less(all_lanes(0.0F), z) & less(least, z * z), slid, q[2]);
   }
   q[1] += way;
   clear_ball(roll, where, way, rest, q);

@@ -75,6 +75,8 @@ void semblante_prepare_lid_roll(int eye, const semblante_pose* pose, const sembl
   }
   const float swing[3] = {roll->pole[0] - lids->gaze[0], roll->pole[1] - lids->gaze[1], roll->pole[2] - lids->gaze[2]};
   roll->swing = __builtin_sqrtf(dot(swing, swing));
+  roll->gain = 1.0F / (lids->ball[SEMBLANTE_BALL_PLACES - 1] * SEMBLANTE_LID_GAIN_OVER);
+  roll->gained = roll->swing / SEMBLANTE_LID_GAIN_OVER;
   roll->clearance = CLEARANCE * lids->ball[SEMBLANTE_BALL_PLACES - 1];
   float largest = 0.0F;
   for (uint32_t k = 0; k < SEMBLANTE_BALL_PLACES; ++k) {

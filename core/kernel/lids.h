@@ -30,6 +30,8 @@ typedef struct semblante_lid_roll {
   float ball_center[3];
   float pole[3];      /* of the ball in this pose */
   float swing;        /* length of the way of the pole from the neutral face */
+  float gain;         /* of a vertex's clearance by its way: share for each unit of length */
+  float gained;       /* by the ball's way */
   float clearance;    /* that a lid keeps from the ball */
   float square_reach; /* squared distance from the ball's centre from which on every vertex has its clearance */
   int moves;          /* 0: lids and ball are neutral, so that a vertex at rest stays bit for bit */
