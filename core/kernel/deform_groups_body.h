@@ -167,23 +167,24 @@ static inline __attribute__((always_inline)) void sum_group(const float (*fp)[4]
     }
     return;
   }
+  reg sum[REGISTERS][3]; /* not `p`, whose address others have: it would be written for each point */
   for (uint32_t r = 0; r < REGISTERS; ++r) {
     for (uint32_t i = 0; i < 3; ++i) {
-      p[r][i] = weights[r] * fp[points[0]][i];
+      sum[r][i] = weights[r] * fp[points[0]][i];
     }
   }
   for (uint32_t k = 1; k < count; ++k) {
     const float* const by = fp[points[k]];
     for (uint32_t r = 0; r < REGISTERS; ++r) {
       const reg w = weights[k * REGISTERS + r];
-      p[r][0] += w * by[0];
-      p[r][1] += w * by[1];
-      p[r][2] += w * by[2];
+      sum[r][0] += w * by[0];
+      sum[r][1] += w * by[1];
+      sum[r][2] += w * by[2];
     }
   }
   for (uint32_t r = 0; r < REGISTERS; ++r) {
     for (uint32_t i = 0; i < 3; ++i) {
-      p[r][i] = rest[i * REGISTERS + r] + p[r][i];
+      p[r][i] = rest[i * REGISTERS + r] + sum[r][i];
     }
   }
 }
