@@ -7,10 +7,10 @@
  *   const semblante_prepared_face* prepared = semblante_prepare(&face, memory);
  *   ... each frame: semblante_deform_prepared(prepared, &pose, positions);
  *
- * Vertices keep their order and numbers. Eight consecutive vertices form a group with one list of feature points, the
- * union of their rows; missing points have the weight zero. Neighbours in a mesh decoded by Draco share most of their
- * points, so that the union is only slightly longer than the rows. Groups with equal numbers of points are processed
- * together.
+ * Vertices keep their order and numbers. Eight or sixteen consecutive vertices form a group with one list of feature
+ * points, the union of their rows; missing points have the weight zero. Neighbours in a mesh decoded by Draco share
+ * most of their points, so that the union is only slightly longer than the rows. Groups with equal numbers of points
+ * are processed together.
  */
 #ifndef SEMBLANTE_PREPARED_FACE_H
 #define SEMBLANTE_PREPARED_FACE_H
