@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <tuple>
+#include <utility>
 
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
@@ -16,13 +18,30 @@ struct Wing {
   std::uint32_t low, high;  ///< the edge's ends, low < high
   std::uint32_t apex;
 
-  [[nodiscard]] auto key() const { return std::tie(low, high, apex); }
+  bool operator==(const Wing&) const = default;
 };
 
 struct Link {
   std::uint32_t from, to;
   double length;
 };
+
+/// Sorts by `vertex_of`, a number below `vertices`, and then by `before`: few items are of one vertex.
+template <class Item, class VertexOf, class Before>
+void sort_by_vertex(std::vector<Item>& items, std::size_t vertices, VertexOf vertex_of, Before before) {
+  std::vector<std::size_t> ends(vertices + 1, 0);  // at first where the items of each vertex begin
+  for (const Item& item : items) ++ends[vertex_of(item) + 1];
+  std::partial_sum(ends.begin(), ends.end(), ends.begin());
+  std::vector<Item> sorted(items.size());
+  for (const Item& item : items) sorted[ends[vertex_of(item)]++] = item;
+  auto first = sorted.begin();
+  for (std::size_t v = 0; v < vertices; ++v) {
+    const auto end = sorted.begin() + static_cast<std::ptrdiff_t>(ends[v]);
+    std::sort(first, end, before);
+    first = end;
+  }
+  items = std::move(sorted);
+}
 
 std::vector<Wing> wings_of(const Surface& surface, std::span<const Triangle> triangles) {
   std::vector<Wing> wings;
@@ -36,9 +55,10 @@ std::vector<Wing> wings_of(const Surface& surface, std::span<const Triangle> tri
       wings.push_back({low, high, s[(c + 2) % 3]});
     }
   }
-  std::sort(wings.begin(), wings.end(), [](const Wing& a, const Wing& b) { return a.key() < b.key(); });
-  const auto same = [](const Wing& a, const Wing& b) { return a.key() == b.key(); };
-  wings.erase(std::unique(wings.begin(), wings.end(), same), wings.end());  // duplicate triangles count once
+  sort_by_vertex(
+      wings, surface.vertex_count(), [](const Wing& w) { return w.low; },
+      [](const Wing& a, const Wing& b) { return std::tie(a.high, a.apex) < std::tie(b.high, b.apex); });
+  wings.erase(std::unique(wings.begin(), wings.end()), wings.end());  // duplicate triangles count once
   return wings;
 }
 
@@ -82,15 +102,16 @@ Surface with_unfolded_diagonals(const Surface& surface, std::span<const Triangle
       links.push_back({wings[second].apex, wings[first].apex, length});
     }
   }
-  std::sort(links.begin(), links.end(), [](const Link& a, const Link& b) {
-    return std::tie(a.from, a.to, a.length) < std::tie(b.from, b.to, b.length);
-  });
+  sort_by_vertex(
+      links, surface.vertex_count(), [](const Link& l) { return l.from; },
+      [](const Link& a, const Link& b) { return std::tie(a.to, a.length) < std::tie(b.to, b.length); });
   // Of several links between two vertices the shortest, which is sorted first.
   const auto same_ends = [](const Link& a, const Link& b) { return a.from == b.from && a.to == b.to; };
   links.erase(std::unique(links.begin(), links.end(), same_ends), links.end());
 
   Surface unfolded = surface;
   unfolded.steps.clear();
+  unfolded.steps.reserve(links.size());
   unfolded.step_offsets.assign(surface.vertex_count() + 1, 0);
   for (const Link& link : links) {
     unfolded.steps.push_back({link.length, SurfaceVertexId(link.to)});
