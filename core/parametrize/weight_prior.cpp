@@ -24,18 +24,21 @@ bool on_edge(const mpeg4::Opening& opening, std::size_t id) {
   return false;
 }
 
-/// 1 for points on the edge of a lip or lid, 0 for others.
-const WeightRow& edge_points() {
-  static const WeightRow marked = [] {
-    WeightRow on_edges{};
-    for (std::size_t id = 0; id < on_edges.size(); ++id) {
-      const bool is_on_one = std::any_of(mpeg4::openings.begin(), mpeg4::openings.end(),
-                                         [&](const mpeg4::Opening& o) { return on_edge(o, id); });
-      on_edges[id] = is_on_one ? 1.0 : 0.0;
+bool on_any_edge(std::size_t id) {
+  return std::any_of(mpeg4::openings.begin(), mpeg4::openings.end(),
+                     [&](const mpeg4::Opening& o) { return on_edge(o, id); });
+}
+
+/// The points on the edge of a lip or lid.
+const std::vector<std::size_t>& edge_points() {
+  static const std::vector<std::size_t> points = [] {
+    std::vector<std::size_t> on_edges;
+    for (std::size_t id = 0; id < feature_point_count; ++id) {
+      if (on_any_edge(id)) on_edges.push_back(id);
     }
     return on_edges;
   }();
-  return marked;
+  return points;
 }
 
 bool is_of_eyes_or_brows(std::size_t id) {
@@ -47,7 +50,7 @@ bool is_of_eyes_or_brows(std::size_t id) {
 
 bool WeightPrior::allows(std::size_t i, std::size_t j) {
   if (j >= first_product && is_of_eyes_or_brows(i)) return false;
-  if (j >= first_axis) return edge_points()[i] == 0.0;
+  if (j >= first_axis) return !on_any_edge(i);
   return std::none_of(mpeg4::openings.begin(), mpeg4::openings.end(),
                       [&](const mpeg4::Opening& o) { return on_edge(o, i) && on_edge(o, j); });
 }
@@ -65,7 +68,8 @@ WeightPrior::OffsetTerms WeightPrior::offset_terms(const glm::dvec3& offset) {
 }
 
 double WeightPrior::share_off_edges(const WeightRow& row) {
-  const double on_edges = std::inner_product(row.begin(), row.end(), edge_points().begin(), 0.0);
+  double on_edges = 0.0;
+  for (const std::size_t id : edge_points()) on_edges += row[id];
   return 1.0 - on_edges;
 }
 
@@ -75,13 +79,18 @@ WeightPrior::WeightPrior(std::span<const Entry> entries) {
     Correction correction;
   };
   std::vector<Placed> placed;
+  const auto place = [&](std::size_t i, std::size_t j, std::size_t k, double factor) {
+    const auto [low, high] = std::minmax(i, j);
+    placed.push_back({cell(low, high), {static_cast<std::uint8_t>(high), static_cast<std::uint8_t>(k), factor}});
+  };
   for (const Entry& e : entries) {
     const double factor = e.hundredths / 100.0;
-    placed.push_back({cell(std::min(e.i, e.j), std::max(e.i, e.j)), {e.k, factor}});
-    const auto [i, j] = std::minmax({mirrored(e.i), mirrored(e.j)});
+    const std::size_t i = mirrored(e.i);
+    const std::size_t j = mirrored(e.j);
     const std::size_t k = mirrored(e.k);
-    if (cell(i, j) == placed.back().cell && k == e.k) continue;
-    placed.push_back({cell(i, j), {static_cast<std::uint8_t>(k), sign_of_image(e.j) * factor}});
+    place(e.i, e.j, e.k, factor);
+    const bool is_own_image = std::minmax(i, j) == std::minmax<std::size_t>(e.i, e.j) && k == e.k;
+    if (!is_own_image) place(i, j, k, sign_of_image(e.j) * factor);
   }
   std::stable_sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) { return a.cell < b.cell; });
   offsets_.assign(column_count * column_count + 1, 0);
@@ -106,22 +115,24 @@ void WeightPrior::correct(WeightRow& row, const glm::dvec3& position, const Plac
   }
   if (count == 0) return;
   WeightRow change{};
-  const auto add = [&](std::size_t i, std::size_t j, double amount) {
-    const std::size_t at = cell(i, j);
-    for (std::uint32_t c = offsets_[at]; c < offsets_[at + 1]; ++c) {
-      const Correction& correction = corrections_[c];
-      if (places[correction.point].vertex != nowhere) change[correction.point] += amount * correction.factor;
-    }
+  const auto add = [&](const Correction& correction, double amount) {
+    if (places[correction.point].vertex != nowhere) change[correction.point] += amount * correction.factor;
   };
   const double off_edges = share_off_edges(row);
   for (std::size_t a = 0; a < count; ++a) {
     const std::size_t i = ids[a];
     for (std::size_t b = a + 1; b < count; ++b) {
-      if (places[i].vertex != places[ids[b]].vertex) add(i, ids[b], shares[a] * shares[b]);
+      const auto of_pair = between(cell(i, ids[b]), cell(i, ids[b]) + 1);
+      if (of_pair.empty() || places[i].vertex == places[ids[b]].vertex) continue;
+      for (const Correction& c : of_pair) add(c, shares[a] * shares[b]);
     }
-    if (sum < 1.0) add(i, root, shares[a] * (1.0 - sum) * sum);
+    if (sum < 1.0) {
+      for (const Correction& c : between(cell(i, root), cell(i, first_axis))) add(c, shares[a] * (1.0 - sum) * sum);
+    }
+    const auto of_offsets = between(cell(i, first_axis), cell(i, column_count));
+    if (of_offsets.empty()) continue;
     const OffsetTerms terms = offset_terms(position - places[i].position);
-    for (std::size_t t = 0; t < terms.size(); ++t) add(i, first_axis + t, shares[a] * terms[t] * off_edges);
+    for (const Correction& c : of_offsets) add(c, shares[a] * terms[c.column - first_axis] * off_edges);
   }
   double corrected = 0.0;
   for (std::size_t id = 0; id < row.size(); ++id) {

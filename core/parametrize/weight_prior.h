@@ -75,10 +75,15 @@ class WeightPrior {
 
  private:
   struct Correction {
+    std::uint8_t column;  ///< of its cell: the greater id of its pair
     std::uint8_t point;
     double factor;
   };
   [[nodiscard]] static std::size_t cell(std::size_t i, std::size_t j) { return i * column_count + j; }
+  /// The corrections of the cells from `first` to before `last`.
+  [[nodiscard]] std::span<const Correction> between(std::size_t first, std::size_t last) const {
+    return std::span(corrections_).subspan(offsets_[first], offsets_[last] - offsets_[first]);
+  }
 
   std::vector<std::uint32_t> offsets_;  ///< by cell (i < j), one more; empty: no corrections
   std::vector<Correction> corrections_;
