@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
@@ -30,86 +31,74 @@ void NearestPoint::build(std::size_t first, std::size_t last, int axis) {
   build(middle + 1, last, (axis + 1) % 3);
 }
 
-void NearestPoint::search(std::size_t first, std::size_t last, int axis, const glm::dvec3& to, std::uint32_t& index,
-                          double& squared) const {
-  const auto compare = [&](const Node& node) {
+template <class Look>
+void NearestPoint::go_through(std::size_t first, std::size_t last, int axis, const glm::dvec3& to,
+                              const glm::dvec3& outside, const double& reach, const Look& look) const {
+  if (glm::dot(outside, outside) > reach) return;
+  const auto look_at = [&](const Node& node) {
     const glm::dvec3 away = node.position - to;
-    const double here = glm::dot(away, away);
-    if (here < squared || (here == squared && node.index < index)) {
-      squared = here;
-      index = node.index;
-    }
+    look(node.index, glm::dot(away, away));
   };
   if (last - first <= leaf_size) {
-    for (std::size_t i = first; i < last; ++i) compare(nodes_[i]);
+    for (std::size_t i = first; i < last; ++i) look_at(nodes_[i]);
     return;
   }
   const std::size_t middle = first + (last - first) / 2;
-  const Node& node = nodes_[middle];
-  compare(node);
-  const double beyond = to[axis] - node.position[axis];
+  look_at(nodes_[middle]);
+  const double beyond = to[axis] - nodes_[middle].position[axis];
+  glm::dvec3 farther = outside;
+  farther[axis] = beyond;
   const int next = (axis + 1) % 3;
-  const bool low_first = beyond < 0.0;
-  if (low_first) {
-    search(first, middle, next, to, index, squared);
+  if (beyond < 0.0) {
+    go_through(first, middle, next, to, outside, reach, look);
+    go_through(middle + 1, last, next, to, farther, reach, look);
   } else {
-    search(middle + 1, last, next, to, index, squared);
-  }
-  if (beyond * beyond > squared) return;  // equal distances are examined: the lowest index is returned
-  if (low_first) {
-    search(middle + 1, last, next, to, index, squared);
-  } else {
-    search(first, middle, next, to, index, squared);
+    go_through(middle + 1, last, next, to, outside, reach, look);
+    go_through(first, middle, next, to, farther, reach, look);
   }
 }
 
 NearestPoint::Hit NearestPoint::nearest(const glm::dvec3& to) const {
-  std::uint32_t index = std::numeric_limits<std::uint32_t>::max();
-  double squared = std::numeric_limits<double>::infinity();
-  search(0, nodes_.size(), 0, to, index, squared);
-  return {index, std::sqrt(squared)};
-}
-
-double NearestPoint::square_within(const glm::dvec3& to, double bound) const {
-  // No index is below 0, so a point as far as the bound does not count as nearer.
-  std::uint32_t index = 0;
-  search(0, nodes_.size(), 0, to, index, bound);
-  return bound;
-}
-
-void NearestPoint::collect(std::size_t first, std::size_t last, int axis, const glm::dvec3& to, double squared,
-                           std::vector<std::uint32_t>& indices) const {
-  const auto add_if_near = [&](const Node& node) {
-    const glm::dvec3 away = node.position - to;
-    if (glm::dot(away, away) <= squared) indices.push_back(node.index);
-  };
-  if (last - first <= leaf_size) {
-    for (std::size_t i = first; i < last; ++i) add_if_near(nodes_[i]);
-    return;
-  }
-  const std::size_t middle = first + (last - first) / 2;
-  const Node& node = nodes_[middle];
-  add_if_near(node);
-  const double beyond = to[axis] - node.position[axis];
-  const int next = (axis + 1) % 3;
-  if (beyond <= 0.0 || beyond * beyond <= squared) collect(first, middle, next, to, squared, indices);
-  if (beyond >= 0.0 || beyond * beyond <= squared) collect(middle + 1, last, next, to, squared, indices);
+  std::uint32_t nearest = std::numeric_limits<std::uint32_t>::max();
+  double least = std::numeric_limits<double>::infinity();
+  // Equal distances are examined: the lowest index is returned.
+  go_through(0, nodes_.size(), 0, to, glm::dvec3(0.0), least, [&](std::uint32_t index, double squared) {
+    if (squared > least || (squared == least && index > nearest)) return;
+    least = squared;
+    nearest = index;
+  });
+  return {nearest, std::sqrt(least)};
 }
 
 std::vector<std::uint32_t> NearestPoint::nearest_with_ties(const glm::dvec3& to, double within) const {
-  constexpr double tie = 1e-6;
+  constexpr double tie = (1.0 + 1e-6) * (1.0 + 1e-6);
+  double least = within * within;
+  double reach = least;
+  std::vector<std::pair<std::uint32_t, double>> near;  // all that were nearest, or as near, when they were examined
+  go_through(0, nodes_.size(), 0, to, glm::dvec3(0.0), reach, [&](std::uint32_t index, double squared) {
+    if (squared >= within * within || squared > reach) return;
+    near.emplace_back(index, squared);
+    if (squared >= least) return;
+    least = squared;
+    reach = least * tie;
+  });
   std::vector<std::uint32_t> indices;
-  const double bound = within * within;
-  const double squared = square_within(to, bound);
-  if (!(squared < bound)) return indices;
-  collect(0, nodes_.size(), 0, to, squared * (1.0 + tie) * (1.0 + tie), indices);
+  for (const auto& [index, squared] : near) {
+    if (squared <= reach) indices.push_back(index);
+  }
   std::sort(indices.begin(), indices.end());
   return indices;
 }
 
 bool NearestPoint::has_within(const glm::dvec3& to, double distance) const {
-  const double bound = distance * distance;
-  return square_within(to, bound) < bound;
+  double reach = distance * distance;
+  bool is_found = false;
+  go_through(0, nodes_.size(), 0, to, glm::dvec3(0.0), reach, [&](std::uint32_t, double squared) {
+    if (!(squared < reach)) return;
+    is_found = true;
+    reach = -1.0;  // no more ranges
+  });
+  return is_found;
 }
 
 }  // namespace semblante

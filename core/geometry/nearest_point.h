@@ -34,12 +34,12 @@ class NearestPoint {
     std::uint32_t index;
   };
   void build(std::size_t first, std::size_t last, int axis);
-  void search(std::size_t first, std::size_t last, int axis, const glm::dvec3& to, std::uint32_t& index,
-              double& squared) const;
-  /// The square of the distance to the nearest point, or `bound` if it is not less.
-  [[nodiscard]] double square_within(const glm::dvec3& to, double bound) const;
-  void collect(std::size_t first, std::size_t last, int axis, const glm::dvec3& to, double squared,
-               std::vector<std::uint32_t>& indices) const;
+  /// Calls `look` with the index and the squared distance of points, near ones first: all but those of ranges whose
+  /// boxes are farther than the square `reach`, which `look` may lower. `outside`: how far `to` is outside this range's
+  /// box, along each axis.
+  template <class Look>
+  void go_through(std::size_t first, std::size_t last, int axis, const glm::dvec3& to, const glm::dvec3& outside,
+                  const double& reach, const Look& look) const;
 
   /// The middle of each range splits it, along x, y, z in turn, down to ranges that are quicker to go through.
   std::vector<Node> nodes_;

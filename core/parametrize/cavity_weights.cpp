@@ -155,13 +155,17 @@ class Diffusion {
     const auto [skin, vertices] = skin_around();
     std::optional<NearestPoint> nearest;
     if (!skin.empty()) nearest.emplace(skin);
+    const double thick = flesh.thick * unit_;
+    std::optional<std::uint32_t> last;  // nearest to the member before, which is near this one as a rule
     for (const SurfaceVertexId member : cavity_.members) {
       const glm::dvec3& p = surface_.positions[member.value()];
       const glm::dvec3 from_corners = (p - cavity_.middle) / unit_;
       Goal goal{in_front_.size(), in_front_.size(), 0.0, jaw_share_in_mouth(from_corners)};
       // On the middle of a symmetric head the skin on both sides is as near.
       std::vector<std::uint32_t> ties;
-      if (nearest) ties = nearest->nearest_with_ties(p, flesh.thick * unit_);
+      const double bound = last ? std::min(thick, glm::distance(p, skin[*last]) * (1.0 + 1e-9)) : thick;
+      if (nearest) ties = nearest->nearest_with_ties(p, bound);
+      last = ties.empty() ? std::nullopt : std::optional(ties.front());
       if (!ties.empty()) {
         const double distance = glm::distance(p, skin[ties.front()]);
         const double up = smooth_step(flesh.below, flesh.above, from_corners.y);
