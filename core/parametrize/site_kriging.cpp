@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 namespace semblante {
@@ -21,6 +23,8 @@ constexpr double trusted_detour = 1.6;
 constexpr double greatest_detour = 3.5;
 /// Number of points used to estimate the distance to a place on an edge.
 constexpr std::size_t landmark_count = 12;
+/// Members that follow each other are near each other as a rule: so many share a list of the sites within reach.
+constexpr std::size_t block_size = 16;
 
 double trust(double detour) {
   const double t = std::clamp((greatest_detour - detour) / (greatest_detour - trusted_detour), 0.0, 1.0);
@@ -126,25 +130,25 @@ SiteKriging::SiteKriging(const Surface& surface, const PointDistances& distances
       table_(kernel),
       reach_(unit * kernel.reach()),
       kriging_(covariances(sites_, unit, kernel), sites_.size()),
-      squares_(sites_.size()) {
-  for (const KrigingSite& site : sites_) {
-    for (int axis = 0; axis < 3; ++axis) places_[axis].push_back(static_cast<float>(site.position[axis]));
-  }
-}
+      near_block_((distances.members.size() + block_size - 1) / block_size) {}
 
-void SiteKriging::find_near(const glm::dvec3& p) {
-  const glm::vec3 at(p);
-  for (std::size_t s = 0; s < squares_.size(); ++s) {
-    const float x = places_[0][s] - at.x;
-    const float y = places_[1][s] - at.y;
-    const float z = places_[2][s] - at.z;
-    squares_[s] = x * x + y * y + z * z;
+const std::vector<std::size_t>& SiteKriging::near_block(std::size_t block) {
+  if (near_block_[block]) return *near_block_[block];
+  glm::dvec3 low(std::numeric_limits<double>::infinity());
+  glm::dvec3 high(-low);
+  const std::size_t first = block * block_size;
+  const std::size_t last = std::min(first + block_size, distances_.members.size());
+  for (std::size_t m = first; m < last; ++m) {
+    const glm::dvec3& p = surface_.positions[distances_.members[m].value()];
+    low = glm::min(low, p);
+    high = glm::max(high, p);
   }
-  const auto certainly_out = static_cast<float>(reach_ * reach_ * (1.0 + 1e-5));
-  near_.clear();
-  for (std::size_t s = 0; s < squares_.size(); ++s) {
-    if (squares_[s] <= certainly_out) near_.push_back(s);
+  std::vector<std::size_t>& near = near_block_[block].emplace();
+  for (std::size_t s = 0; s < sites_.size(); ++s) {
+    const glm::dvec3& p = sites_[s].position;
+    if (glm::distance(p, glm::clamp(p, low, high)) < reach_) near.push_back(s);
   }
+  return near;
 }
 
 std::span<const SiteKriging::Term> SiteKriging::at(std::size_t member) {
@@ -154,15 +158,14 @@ std::span<const SiteKriging::Term> SiteKriging::at(std::size_t member) {
   candidates_.clear();
   to_target_.clear();
   terms_.clear();
-  find_near(p);
-  for (const std::size_t s : near_) {
+  for (const std::size_t s : near_block(member / block_size)) {
     const KrigingSite& site = sites_[s];
+    const double straight = glm::distance(p, site.position);
+    if (straight >= reach_) continue;
     if (vertex == site.vertex || (site.slot && along_surface[*site.slot] == 0.0)) {
       terms_.assign(1, {&site, 1.0});
       return terms_;
     }
-    const double straight = glm::distance(p, site.position);
-    if (straight >= reach_) continue;
     const double along = way_to(site, along_surface);
     if (along >= greatest_detour * straight) continue;
     const double covariance = table_.at(straight / unit_) * trust(along / straight);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <array>
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <utility>
@@ -79,8 +79,8 @@ class SiteKriging {
   [[nodiscard]] std::span<const KrigingSite> sites() const { return sites_; }
 
  private:
-  /// Finds the sites within reach, and few others: by far most are out, which single precision shows.
-  void find_near(const glm::dvec3& p);
+  /// The sites within reach of the box of a block of members; by far most are out.
+  const std::vector<std::size_t>& near_block(std::size_t block);
 
   const Surface& surface_;
   const PointDistances& distances_;
@@ -90,9 +90,7 @@ class SiteKriging {
   KernelTable table_;
   double reach_;  ///< model units
   NonNegativeKriging kriging_;
-  std::array<std::vector<float>, 3> places_;  ///< x, y and z of the sites
-  std::vector<float> squares_;
-  std::vector<std::size_t> near_;
+  std::vector<std::optional<std::vector<std::size_t>>> near_block_;  ///< those that were asked for
   std::vector<std::size_t> candidates_;
   std::vector<double> to_target_;
   std::vector<Term> terms_;
