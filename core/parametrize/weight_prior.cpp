@@ -115,29 +115,29 @@ void WeightPrior::correct(WeightRow& row, const glm::dvec3& position, const Plac
   }
   if (count == 0) return;
   WeightRow change{};
-  const auto add = [&](const Correction& correction, double amount) {
-    if (places[correction.point].vertex != nowhere) change[correction.point] += amount * correction.factor;
-  };
   const double off_edges = share_off_edges(row);
   for (std::size_t a = 0; a < count; ++a) {
     const std::size_t i = ids[a];
     for (std::size_t b = a + 1; b < count; ++b) {
       const auto of_pair = between(cell(i, ids[b]), cell(i, ids[b]) + 1);
       if (of_pair.empty() || places[i].vertex == places[ids[b]].vertex) continue;
-      for (const Correction& c : of_pair) add(c, shares[a] * shares[b]);
+      const double amount = shares[a] * shares[b];
+      for (const Correction& c : of_pair) change[c.point] += amount * c.factor;
     }
     if (sum < 1.0) {
-      for (const Correction& c : between(cell(i, root), cell(i, first_axis))) add(c, shares[a] * (1.0 - sum) * sum);
+      const double amount = shares[a] * (1.0 - sum) * sum;
+      for (const Correction& c : between(cell(i, root), cell(i, first_axis))) change[c.point] += amount * c.factor;
     }
     const auto of_offsets = between(cell(i, first_axis), cell(i, column_count));
     if (of_offsets.empty()) continue;
-    const OffsetTerms terms = offset_terms(position - places[i].position);
-    for (const Correction& c : of_offsets) add(c, shares[a] * terms[c.column - first_axis] * off_edges);
+    OffsetTerms amounts = offset_terms(position - places[i].position);
+    for (double& amount : amounts) amount = shares[a] * amount * off_edges;
+    for (const Correction& c : of_offsets) change[c.point] += amounts[c.column - first_axis] * c.factor;
   }
   double corrected = 0.0;
   for (std::size_t id = 0; id < row.size(); ++id) {
     double& w = row[id];
-    if (w == 0.0 && change[id] == 0.0) continue;  // most
+    if (places[id].vertex == nowhere || (w == 0.0 && change[id] == 0.0)) continue;  // most
     if (change[id] >= 0.0) {
       w += change[id];
     } else if (w > 0.0) {
