@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -52,7 +53,7 @@ class PlaceGuess {
  public:
   PlaceGuess(std::span<const PartShape> shapes, const FeaturePointSet& points, std::size_t skin,
              std::span<std::optional<PartRole>> roles)
-      : shapes_(shapes), points_(points), skin_(shapes[skin]), roles_(roles), near_skin_(skin_.positions) {}
+      : shapes_(shapes), points_(points), skin_(shapes[skin]), roles_(roles) {}
 
   void run() {
     eyes_[0] = mean_of(points_, {"3.5"});
@@ -267,15 +268,16 @@ class PlaceGuess {
            shape.high.z > mouth_->z - share_of_es::mouth_half_height * es_;
   }
 
-  [[nodiscard]] bool may_be_attached(std::size_t p) const {
+  [[nodiscard]] bool may_be_attached(std::size_t p) {
     const glm::dvec3 extent = shapes_[p].extent();
     const bool is_large = extent.x > share_of_es::attached_width * es_ ||
                           extent.y > share_of_es::attached_height * es_ || extent.z > share_of_es::attached_depth * es_;
     if (is_large && !is_around_mouth(shapes_[p])) return false;
     double sum = 0.0;
     double most = 0.0;
+    if (!near_skin_) near_skin_.emplace(skin_.positions);
     for (const glm::dvec3& v : shapes_[p].positions) {
-      const double gap = near_skin_.nearest(v).distance;
+      const double gap = near_skin_->nearest(v).distance;
       sum += gap;
       most = std::max(most, gap);
     }
@@ -289,7 +291,7 @@ class PlaceGuess {
   const FeaturePointSet& points_;
   const PartShape& skin_;
   std::span<std::optional<PartRole>> roles_;
-  NearestPoint near_skin_;
+  std::optional<NearestPoint> near_skin_;  ///< made for the first part that needs it: names say enough of many heads
   std::array<std::optional<glm::dvec3>, 2> eyes_;  ///< left, right: approximate positions
   double es_ = 0.0;
   std::optional<glm::dvec3> mouth_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <optional>
 #include <queue>
 
 #include <glm/geometric.hpp>
@@ -185,9 +186,9 @@ std::vector<std::vector<FollowedVertex>> followed_by_attached(const Surface& sur
   std::vector<std::vector<FollowedVertex>> followed(surface.vertex_count());
   const auto is_attached = [](const Part& part) { return part.role == PartRole::attached; };
   if (std::none_of(parts.begin(), parts.end(), is_attached)) return followed;
-  std::vector<SurfaceVertexId> of_skin = vertices_of_skin(surface, parts);
+  const std::vector<SurfaceVertexId> of_skin = vertices_of_skin(surface, parts);
   if (of_skin.empty()) return followed;
-  const SkinVertices skin(surface, std::move(of_skin));
+  std::optional<SkinVertices> skin;  // made for the first part that needs it: lashes do not
   const std::vector<EdgesOfEye> eyes = edges_of_eyes(surface, parts, points);
 
   std::vector<double> cost(surface.vertex_count(), infinite);
@@ -205,9 +206,13 @@ std::vector<std::vector<FollowedVertex>> followed_by_attached(const Surface& sur
   for (std::uint32_t p = 0; p < parts.size(); ++p) {
     if (!is_attached(parts[p])) continue;
     const auto [edge, eye_width] = edges[p];
-    if (edge != nullptr) lashes.push_back(PartId(p));
+    if (edge != nullptr) {
+      lashes.push_back(PartId(p));
+    } else if (!skin) {
+      skin.emplace(surface, of_skin);
+    }
     for (const SurfaceVertexId v : surface.members_of(PartId(p))) {
-      const SkinVertices::Hit hit = (edge != nullptr ? *edge : skin).nearest(surface.positions[v.value()]);
+      const SkinVertices::Hit hit = (edge != nullptr ? *edge : *skin).nearest(surface.positions[v.value()]);
       is_root[v.value()] = edge != nullptr && hit.distance < root * eye_width;
       lower(v, air * hit.distance, hit.vertex);
     }
