@@ -233,35 +233,37 @@ class GroupSearch {
   std::vector<std::uint8_t> pending_;
 };
 
-/// Allocates with cache line alignment, large tables in huge pages if available, because sweeps access them randomly.
-double* allocate_lanes(std::size_t count) {
+}  // namespace
+
+void FreeDistances::operator()(double* distances) const { std::free(distances); }
+
+DistanceRows make_distance_rows(std::size_t count) {
   constexpr std::size_t line = 64;
   constexpr std::size_t huge_page = std::size_t{2} << 20U;
   const std::size_t bytes = std::max(count * sizeof(double), line);
-  if (bytes < 2 * huge_page) return static_cast<double*>(std::aligned_alloc(line, bytes));
-  const std::size_t whole = (bytes + huge_page - 1) / huge_page * huge_page;
-  auto* const lanes = static_cast<double*>(std::aligned_alloc(huge_page, whole));
+  const bool is_large = bytes >= 2 * huge_page;
+  const std::size_t unit = is_large ? huge_page : line;
+  const std::size_t whole = (bytes + unit - 1) / unit * unit;
+  DistanceRows rows(static_cast<double*>(std::aligned_alloc(unit, whole)));
+  if (!rows) throw std::bad_alloc();
 #if defined(__linux__)
-  if (lanes != nullptr) madvise(lanes, whole, MADV_HUGEPAGE);
+  if (is_large) madvise(rows.get(), whole, MADV_HUGEPAGE);
 #endif
-  return lanes;
+  return rows;
 }
 
-}  // namespace
-
-void DistancesFromAll::Free::operator()(double* lanes) const { std::free(lanes); }
-
-void DistancesFromAll::read_rows(std::span<double> rows) const {
+DistanceRows DistancesFromAll::rows() const {
   const std::size_t sources = lane_of_.size();
-  assert(rows.size() == vertex_of_.size() * sources);
+  DistanceRows rows = make_distance_rows(vertex_of_.size() * sources);
   std::vector<std::uint32_t> member_of(vertex_of_.size());
   for (std::uint32_t m = 0; m < vertex_of_.size(); ++m) member_of[vertex_of_[m]] = m;
   // In the order of the lanes, whose parts of a row lie far from each other: only whole rows are written out of order.
   for (std::size_t vertex = 0; vertex < member_of.size(); ++vertex) {
     const double* const from = lanes_.get() + vertex * DistanceGroup::lane_count;
-    double* const row = rows.data() + member_of[vertex] * sources;
+    double* const row = rows.get() + member_of[vertex] * sources;
     for (std::size_t source = 0; source < sources; ++source) row[source] = from[lane_of_[source]];
   }
+  return rows;
 }
 
 DistancesFromAll distances_from_all(const Surface& graph, PartId part, std::span<const SurfaceVertexId> sources,
@@ -283,8 +285,7 @@ DistancesFromAll distances_from_all(const Surface& graph, PartId part, std::span
   const std::size_t group_size = members.size() * lane_count;
   const std::size_t groups = (sources.size() + lane_count - 1) / lane_count;
   DistancesFromAll result;
-  result.lanes_.reset(allocate_lanes(groups * group_size));
-  if (!result.lanes_) throw std::bad_alloc();
+  result.lanes_ = make_distance_rows(groups * group_size);
   result.lane_of_.resize(sources.size());
   GroupSearch search(own, kernel);
   for (std::size_t g = 0; g < groups; ++g) {

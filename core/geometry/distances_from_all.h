@@ -10,6 +10,14 @@
 
 namespace semblante {
 
+struct FreeDistances {
+  void operator()(double* distances) const;
+};
+using DistanceRows = std::unique_ptr<double[], FreeDistances>;
+/// Room for so many distances, without values: aligned to cache lines, large tables in huge pages where the system has
+/// them, because they are filled and read in random order.
+DistanceRows make_distance_rows(std::size_t count);
+
 /// Surface distances from many sources to every vertex of one part.
 class DistancesFromAll {
  public:
@@ -17,18 +25,15 @@ class DistancesFromAll {
   [[nodiscard]] double at(std::size_t source, std::size_t member) const {
     return lanes_[lane_of_[source] + vertex_of_[member] * DistanceGroup::lane_count];
   }
-  /// Distances from every source to every member: `rows` is #M x #sources, row by row.
-  void read_rows(std::span<double> rows) const;
+  /// Distances from every source to every member: #M x #sources, row by row.
+  [[nodiscard]] DistanceRows rows() const;
 
  private:
   friend DistancesFromAll distances_from_all(const Surface&, PartId, std::span<const SurfaceVertexId>,
                                              const DistanceKernel&);
-  struct Free {
-    void operator()(double* lanes) const;
-  };
-  std::unique_ptr<double[], Free> lanes_;  ///< #groups x #M x lane_count
-  std::vector<std::size_t> lane_of_;       ///< by source: where the first vertex's distance is in `lanes_`
-  std::vector<std::uint32_t> vertex_of_;   ///< by member: its number in the kernel's arrays
+  DistanceRows lanes_;                    ///< #groups x #M x lane_count
+  std::vector<std::size_t> lane_of_;      ///< by source: where the first vertex's distance is in `lanes_`
+  std::vector<std::uint32_t> vertex_of_;  ///< by member: its number in the kernel's arrays
 };
 
 /// One search for all sources, sixteen at a time. Bit for bit the values of EdgePathSearch: the minimum, over all

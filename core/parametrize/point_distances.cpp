@@ -17,9 +17,7 @@ PointDistances measure_distances(const Surface& graph, PartId part, std::span<co
   }
   const std::size_t count = result.points.size();
   const DistancesFromAll all = distances_from_all(graph, part, sources);
-  const std::size_t cells = result.members.size() * count;
-  result.to_members = std::make_unique_for_overwrite<double[]>(cells);
-  all.read_rows(std::span(result.to_members.get(), cells));
+  result.to_members = all.rows();
   // Sums of lengths from either end may differ in the last bit; d_ij is the one from the lower id.
   result.between.resize(count * count);
   for (std::size_t j = 0; j < count; ++j) {

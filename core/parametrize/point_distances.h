@@ -1,11 +1,11 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 #include <span>
 #include <vector>
 
 #include "core/anatomy/point_lookup.h"
+#include "core/geometry/distances_from_all.h"
 #include "core/geometry/surface.h"
 
 namespace semblante {
@@ -15,7 +15,7 @@ namespace semblante {
 struct PointDistances {
   std::vector<SurfacePoint> points;          ///< #F on this part, in rising order of id; a *slot* indexes them
   std::span<const SurfaceVertexId> members;  ///< #M vertices of the part
-  std::unique_ptr<double[]> to_members;      ///< #M x #F, row by row; no vector: zeros first would take as long
+  DistanceRows to_members;                   ///< #M x #F, row by row
   std::vector<double> between;               ///< #F x #F, d_ij; symmetric
 
   [[nodiscard]] std::span<const double> of_member(std::size_t member) const {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <memory>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -27,7 +26,7 @@ class OneVertex {
   [[nodiscard]] std::vector<std::string> region() {
     const std::vector<SurfaceVertexId> members = {SurfaceVertexId(0)};
     distances_.members = members;
-    distances_.to_members = std::make_unique<double[]>(to_points_.size());
+    distances_.to_members = make_distance_rows(to_points_.size());
     std::copy(to_points_.begin(), to_points_.end(), distances_.to_members.get());
     Surface surface;
     surface.positions = {glm::dvec3(0.0), glm::dvec3(100.0)};
