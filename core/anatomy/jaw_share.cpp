@@ -19,14 +19,14 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// Vertices of teeth parts of one row, other than `except`.
-std::vector<glm::dvec3> teeth_of_row(const Surface& surface, std::span<const Part> parts, PartRole row, PartId except) {
-  std::vector<glm::dvec3> positions;
+/// The positions of the vertices of teeth parts of one row, other than `except`.
+template <class Look>
+void for_each_tooth(const Surface& surface, std::span<const Part> parts, PartRole row, PartId except,
+                    const Look& look) {
   for (std::uint32_t p = 0; p < parts.size(); ++p) {
     if (parts[p].role != row || PartId(p) == except) continue;
-    for (const SurfaceVertexId v : surface.members_of(PartId(p))) positions.push_back(surface.positions[v.value()]);
+    for (const SurfaceVertexId v : surface.members_of(PartId(p))) look(surface.positions[v.value()]);
   }
-  return positions;
 }
 
 struct Box {
@@ -42,26 +42,28 @@ struct Box {
 };
 
 /// The vertices of a part that hold a row of teeth; empty if the row is not in this part.
-std::vector<SurfaceVertexId> sockets_of(const Surface& surface, PartId part, const std::vector<glm::dvec3>& teeth) {
+std::vector<SurfaceVertexId> sockets_of(const Surface& surface, std::span<const Part> parts, PartId part,
+                                        PartRole row) {
   const std::span<const SurfaceVertexId> members = surface.members_of(part);
-  if (teeth.empty()) return {};
-  Box box;
-  for (const SurfaceVertexId v : members) box.add(surface.positions[v.value()]);
-
   double low = infinite;
   double high = -infinite;
-  for (const glm::dvec3& t : teeth) {
+  std::size_t count = 0;
+  for_each_tooth(surface, parts, row, part, [&](const glm::dvec3& t) {
     low = std::min(low, t.x);
     high = std::max(high, t.x);
-  }
+    ++count;
+  });
+  if (count == 0) return {};
+  Box box;
+  for (const SurfaceVertexId v : members) box.add(surface.positions[v.value()]);
   // About two millimetres: a row of teeth is about 60 mm wide.
   const double touch = 0.04 * (high - low);
   // Most teeth are far from most parts: only those at the part's box are searched for.
   std::vector<glm::dvec3> near;
-  for (const glm::dvec3& t : teeth) {
+  for_each_tooth(surface, parts, row, part, [&](const glm::dvec3& t) {
     if (box.is_within(t, touch)) near.push_back(t);
-  }
-  const std::size_t enough = (teeth.size() + 9) / 10;
+  });
+  const std::size_t enough = (count + 9) / 10;
   if (near.size() < enough) return {};
   // Likewise only vertices at the box of these teeth: most of the skin of a face is far from them.
   Box of_teeth;
@@ -183,10 +185,8 @@ std::vector<MouthShare> share_of_jaw(const Surface& surface, std::span<const Par
     const PartId part(p);
     const PartRole role = parts[p].role;
     if (role != PartRole::tongue && role != PartRole::lower_teeth && role != PartRole::upper_teeth) continue;
-    std::vector<SurfaceVertexId> upper =
-        sockets_of(surface, part, teeth_of_row(surface, parts, PartRole::upper_teeth, part));
-    std::vector<SurfaceVertexId> lower =
-        sockets_of(surface, part, teeth_of_row(surface, parts, PartRole::lower_teeth, part));
+    std::vector<SurfaceVertexId> upper = sockets_of(surface, parts, part, PartRole::upper_teeth);
+    std::vector<SurfaceVertexId> lower = sockets_of(surface, parts, part, PartRole::lower_teeth);
     if (has_one_part_of_teeth && is_teeth(parts[p])) {
       Rows rows = rows_of_only_part(surface, part, points);
       upper = std::move(rows.upper);

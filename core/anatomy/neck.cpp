@@ -185,8 +185,8 @@ std::vector<std::uint8_t> turn_with_head(const Surface& surface, std::span<Part>
     const double up = std::max(0.0, from_still[s] - margin);
     if (std::isinf(down)) {
       turn[s] = std::isinf(up) ? 255 : 0;
-    } else if (!std::isinf(up)) {
-      turn[s] = down + up > 0.0 ? in_255ths(share_of_turn(up / (down + up), *neck, surface.positions[s])) : 255;
+    } else if (!std::isinf(up) && down > 0.0) {  // the head itself turns fully
+      turn[s] = in_255ths(share_of_turn(up / (down + up), *neck, surface.positions[s]));
     }
     skin.push_back(surface.positions[s]);
     turn_of_skin.push_back(turn[s]);
