@@ -8,8 +8,7 @@ namespace semblante {
 const FeaturePoint* find_point(const FeaturePointSet& points, std::string_view name) {
   const std::optional<FeaturePointId> id = parse_feature_point(name);
   assert(id);
-  const auto found = std::find_if(points.begin(), points.end(), [&](const FeaturePoint& p) { return p.id == *id; });
-  return found == points.end() ? nullptr : &*found;
+  return find_point(points, *id);
 }
 
 std::vector<SurfacePoint> surface_points(const Surface& surface, const FeaturePointSet& points) {

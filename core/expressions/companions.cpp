@@ -29,9 +29,8 @@ constexpr std::array cheeks = {Cheek{"5.1", "8.3"}, Cheek{"5.2", "8.4"}};
 constexpr double far_cheek = 1.0 / 3.0;
 
 std::optional<glm::dvec3> place_of(const FeaturePointSet& points, std::string_view name) {
-  const auto at = std::find_if(points.begin(), points.end(),
-                               [id = parse_feature_point(name)](const FeaturePoint& p) { return p.id == id; });
-  return at != points.end() ? std::optional(glm::dvec3(at->position)) : std::nullopt;
+  const FeaturePoint* const point = find_point(points, *parse_feature_point(name));
+  return point != nullptr ? std::optional(glm::dvec3(point->position)) : std::nullopt;
 }
 
 }  // namespace
@@ -73,9 +72,7 @@ std::vector<Companion> cheeks_beside_near_corners(const FeaturePointSet& points)
 }
 
 std::vector<Companion> companions_of(const FeaturePointSet& points) {
-  const auto is_marked = [&points](FeaturePointId id) {
-    return std::any_of(points.begin(), points.end(), [id](const FeaturePoint& point) { return point.id == id; });
-  };
+  const auto is_marked = [&points](FeaturePointId id) { return find_point(points, id) != nullptr; };
   std::vector<Companion> result;
   for (const mpeg4::Companion& entry : mpeg4::companions) {
     const Companion companion{FeaturePointId(entry.point), FeaturePointId(entry.leader),

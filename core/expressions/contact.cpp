@@ -13,11 +13,6 @@ namespace {
 
 constexpr std::array lower_lip = {"2.3", "2.8", "2.9", "8.2", "8.7", "8.8"};
 
-const FeaturePoint* find(const FeaturePointSet& points, FeaturePointId id) {
-  const auto at = std::find_if(points.begin(), points.end(), [&](const FeaturePoint& p) { return p.id == id; });
-  return at != points.end() ? &*at : nullptr;
-}
-
 Displacement* find(std::vector<Displacement>& displacements, FeaturePointId id) {
   const auto at =
       std::find_if(displacements.begin(), displacements.end(), [&](const Displacement& d) { return d.point == id; });
@@ -47,8 +42,8 @@ void stop_at_contact(std::vector<Displacement>& displacements, const FeaturePoin
     const FacingLips& lips = facing_lips[i];
     const FeaturePointId upper = *parse_feature_point(lips.upper);
     const FeaturePointId lower = *parse_feature_point(lips.lower);
-    const FeaturePoint* const above = find(points, upper);
-    const FeaturePoint* const below = find(points, lower);
+    const FeaturePoint* const above = find_point(points, upper);
+    const FeaturePoint* const below = find_point(points, lower);
     if (above == nullptr || below == nullptr) continue;
     Displacement* const down = find(displacements, upper);
     Displacement* const up = find(displacements, lower);
@@ -67,8 +62,8 @@ void stop_at_contact(std::vector<Displacement>& displacements, const FeaturePoin
 }
 
 void reach_upper_teeth(std::vector<Displacement>& displacements, const FeaturePointSet& points) {
-  const FeaturePoint* const lip = find(points, *parse_feature_point("2.3"));
-  const FeaturePoint* const teeth = find(points, *parse_feature_point("9.10"));
+  const FeaturePoint* const lip = find_point(points, *parse_feature_point("2.3"));
+  const FeaturePoint* const teeth = find_point(points, *parse_feature_point("9.10"));
   const Displacement* const middle = find(displacements, *parse_feature_point("2.3"));
   if (lip == nullptr || teeth == nullptr || middle == nullptr || middle->value.z >= 0.0F) return;
   const double back = static_cast<double>(lip->position.z) - teeth->position.z;

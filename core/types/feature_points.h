@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -22,5 +23,11 @@ struct FeaturePoint {
 
 /// The marked points of one model, each id at most once, by increasing id.
 using FeaturePointSet = std::vector<FeaturePoint>;
+
+/// The marked point with this id, or null.
+inline const FeaturePoint* find_point(const FeaturePointSet& points, FeaturePointId id) {
+  const auto found = std::find_if(points.begin(), points.end(), [id](const FeaturePoint& p) { return p.id == id; });
+  return found == points.end() ? nullptr : &*found;
+}
 
 }  // namespace semblante
