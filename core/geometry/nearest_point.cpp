@@ -73,16 +73,19 @@ NearestPoint::Hit NearestPoint::nearest(const glm::dvec3& to) const {
 std::vector<std::uint32_t> NearestPoint::nearest_with_ties(const glm::dvec3& to, double within) const {
   constexpr double tie = (1.0 + 1e-6) * (1.0 + 1e-6);
   double least = within * within;
-  double reach = least;
+  double reach = least * tie;  // of what may be as near as the nearest, which is less than `within`
+  bool is_found = false;
   std::vector<std::pair<std::uint32_t, double>> near;  // all that were nearest, or as near, when they were examined
   go_through(0, nodes_.size(), 0, to, glm::dvec3(0.0), reach, [&](std::uint32_t index, double squared) {
-    if (squared >= within * within || squared > reach) return;
+    if (squared > reach) return;
     near.emplace_back(index, squared);
     if (squared >= least) return;
+    is_found = true;
     least = squared;
     reach = least * tie;
   });
   std::vector<std::uint32_t> indices;
+  if (!is_found) return indices;
   for (const auto& [index, squared] : near) {
     if (squared <= reach) indices.push_back(index);
   }

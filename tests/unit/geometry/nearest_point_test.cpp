@@ -41,5 +41,11 @@ TEST(NearestPoint, RandomPoints_EqualTheScan) {
   }
 }
 
+TEST(NearestPoint, Tie_BeyondTheBoundOfTheNearest_IsFound) {
+  const std::vector<glm::dvec3> points{{1.0 + 5e-7, 0.0, 0.0}, {3.0, 0.0, 0.0}, {-1.0, 0.0, 0.0}};
+  const std::vector<std::uint32_t> both{0, 2};
+  EXPECT_EQ(NearestPoint(points).nearest_with_ties({0.0, 0.0, 0.0}, 1.0 + 1e-9), both);
+}
+
 }  // namespace
 }  // namespace semblante
