@@ -138,7 +138,7 @@ void print_row(const Head& head, const char* metric, const Surface& surface, con
   options.metric = *parse_distance_metric(metric);
   for (const WeightMethod method : {WeightMethod::paper, WeightMethod::smooth}) {
     options.weights = method;
-    const double whole = best_of(3, [&] { (void)parametrize(head.model, surface, head.points, options); });
+    const double whole = best_of(7, [&] { (void)parametrize(head.model, surface, head.points, options); });
     std::printf(" %8.2f", whole / baseline);
   }
   std::printf("\n");
