@@ -383,14 +383,10 @@ http::Response speak_into_stream(Context& context, http::Request& request) {
   const bool take_over = flag_member(body, "take_over");
   if (!body.contains("speech")) {
     refuse_without_voice(context);
-    const auto wish = speech_request(body);
-    // Also before the voice begins: it would work for a refusal, and keep another stream's from its turn.
-    if (const auto source = info->active_source; source && streams::holds_streams(*source) && !take_over)
-      refuse("conflict", streams::held_by(*source).message);
     auto place = take_speaker(context);
     auto first = [&] {
       const auto slot = take_voice_slot(context);
-      return LiveSpeech::of_text(spoken(voice::SpeechParts::read(context.config.voice, wish)), steps);
+      return LiveSpeech::of_text(spoken(voice::SpeechParts::read(context.config.voice, speech_request(body))), steps);
     }();
     return play(context, request, spoken(std::move(first)), std::move(place), take_over);
   }

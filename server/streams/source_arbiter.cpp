@@ -29,12 +29,6 @@ SourceArbiter::Refusal too_many(FloodGuard& guard, FloodGuard::Verdict verdict) 
 
 }  // namespace
 
-Error held_by(Source holder) {
-  return {ErrorCode::mismatch, "",
-          holder == Source::connection ? "a connection publishes to this stream; only one source at a time"
-                                       : "another source plays into this stream; only one source at a time"};
-}
-
 SourceArbiter::SourceArbiter(bool has_filling, FloodLimits limits, std::chrono::milliseconds filling_patience,
                              Clock::time_point began)
     : has_filling_(has_filling),
@@ -44,8 +38,12 @@ SourceArbiter::SourceArbiter(bool has_filling, FloodLimits limits, std::chrono::
       requests_(limits, began) {}
 
 Result<SourceArbiter::Claim> SourceArbiter::claim(Source source, double rate, bool take_over, Clock::time_point now) {
-  assert(holds_streams(source));
-  if (holder_ && !take_over) return held_by(holder_->source);
+  assert(source != Source::request && source != Source::demo);
+  if (holder_ && !take_over)
+    return Error{ErrorCode::mismatch, "",
+                 holder_->source == Source::connection
+                     ? "a connection publishes to this stream; only one source at a time"
+                     : "another source plays into this stream; only one source at a time"};
   const bool replaces_publisher = is_held_by(Source::connection);
   holder_ = Holder{++last_ticket_, source, rate, FloodGuard(limits_, now), SoundGuard(now)};
   if (source == Source::connection) timeline_.forget_publisher();

@@ -15,12 +15,6 @@
 
 namespace semblante::streams {
 
-/// Whether a source of this kind holds the stream that it feeds.
-constexpr bool holds_streams(Source source) { return source != Source::request && source != Source::demo; }
-
-/// `mismatch`: why a source is refused while one of this kind holds the stream.
-Error held_by(Source holder);
-
 /// Decides which source may feed a stream, and the media time of each frame. One source at a time may *hold* the
 /// stream: a publishing connection, or a player. Requests and the stream's own filling feed it only while no source
 /// holds it. A state machine: its inputs are events with their time, its outputs decisions. Not synchronized.
@@ -48,7 +42,7 @@ class SourceArbiter {
   SourceArbiter(bool has_filling, FloodLimits limits, std::chrono::milliseconds filling_patience,
                 Clock::time_point began);
 
-  /// Makes `source`, of a kind that holds streams, the holder. `rate`: frames per second, 0 when unknown. Errors:
+  /// Makes `source`, which is neither request nor demo, the holder. `rate`: frames per second, 0 when unknown. Errors:
   /// `mismatch` when there is a holder and `take_over` is not set.
   Result<Claim> claim(Source source, double rate, bool take_over, Clock::time_point now);
   /// Ends a hold; false when it had ended before.

@@ -238,14 +238,6 @@ TEST_F(LiveSpeech, Replaced_InTheMiddle_TheOtherIsHeard) {
   EXPECT_GT(heard_.sound_ms(), before + 3000.0);
 }
 
-TEST_F(LiveSpeech, StreamThatAnotherSourceHolds_IsRefused_WithoutAVoice) {
-  ASSERT_EQ(say(first + "This one is never there.").status, 202);
-  listen([&] { return heard_.sound_ms() > 500.0; });
-  const auto answer = say("This one would never begin.");
-  EXPECT_EQ(answer.status, 409) << answer.body;
-  EXPECT_NE(answer.body.find("another source plays into this stream"), std::string::npos) << answer.body;
-}
-
 TEST_F(LiveSpeech, Recording_SaysWhetherItHasSound) {
   const auto record = [&] {
     return json_of(ask("POST", "/v1/streams/talk/recordings"))["links"]["self"].get<std::string>();
