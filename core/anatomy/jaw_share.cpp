@@ -19,7 +19,7 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// The positions of the vertices of teeth parts of one row, other than `except`.
+/// Calls `look` with the position of each vertex of the teeth parts of one row, other than `except`.
 template <class Look>
 void for_each_tooth(const Surface& surface, std::span<const Part> parts, PartRole row, PartId except,
                     const Look& look) {

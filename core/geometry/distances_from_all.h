@@ -14,8 +14,8 @@ struct FreeDistances {
   void operator()(double* distances) const;
 };
 using DistanceRows = std::unique_ptr<double[], FreeDistances>;
-/// Room for so many distances, without values: aligned to cache lines, large tables in huge pages where the system has
-/// them, because they are filled and read in random order.
+/// Memory for `count` distances, not initialized. It is aligned to cache lines, and large tables lie in huge pages
+/// where the system has them, because they are filled and read in random order.
 DistanceRows make_distance_rows(std::size_t count);
 
 /// Surface distances from many sources to every vertex of one part.

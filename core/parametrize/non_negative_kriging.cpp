@@ -55,7 +55,7 @@ std::span<const double> NonNegativeKriging::solve(std::span<const std::size_t> s
   weights_.assign(sites.size(), 0.0);
   is_passive_.assign(sites.size(), false);
   passive_.clear();
-  bool is_factor_valid = true;  // of the last solution: up to the first site that is out of reach now
+  bool is_factor_valid = true;  // the last solution's factor holds up to its first site that is out of reach now
   for (const std::size_t site : last_) {
     const auto at = std::find(sites.begin(), sites.end(), site);
     if (at == sites.end()) {

@@ -23,7 +23,7 @@ constexpr double trusted_detour = 1.6;
 constexpr double greatest_detour = 3.5;
 /// Number of points used to estimate the distance to a place on an edge.
 constexpr std::size_t landmark_count = 12;
-/// Members that follow each other are near each other as a rule: so many share a list of the sites within reach.
+/// Number of members, in their order, that share a list of the sites within reach: as a rule they are near each other.
 constexpr std::size_t block_size = 16;
 
 double trust(double detour) {

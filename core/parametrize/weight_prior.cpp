@@ -137,7 +137,7 @@ void WeightPrior::correct(WeightRow& row, const glm::dvec3& position, const Plac
   double corrected = 0.0;
   for (std::size_t id = 0; id < row.size(); ++id) {
     double& w = row[id];
-    if (places[id].vertex == nowhere || (w == 0.0 && change[id] == 0.0)) continue;  // most
+    if (places[id].vertex == nowhere || (w == 0.0 && change[id] == 0.0)) continue;  // so most points
     if (change[id] >= 0.0) {
       w += change[id];
     } else if (w > 0.0) {

@@ -80,7 +80,7 @@ class WeightPrior {
     double factor;
   };
   [[nodiscard]] static std::size_t cell(std::size_t i, std::size_t j) { return i * column_count + j; }
-  /// The corrections of the cells from `first` to before `last`.
+  /// The corrections of the cells in the range [first, last).
   [[nodiscard]] std::span<const Correction> between(std::size_t first, std::size_t last) const {
     return std::span(corrections_).subspan(offsets_[first], offsets_[last] - offsets_[first]);
   }
