@@ -9,6 +9,7 @@
 #include "core/anatomy/point_lookup.h"
 #include "core/anatomy/pupil_hole.h"
 #include "core/geometry/triangle_shape.h"
+#include "core/types/iris_size.h"
 
 namespace semblante {
 namespace {
@@ -170,7 +171,8 @@ std::optional<IrisOfEye> find_iris(const Model& model, const Surface& surface, s
     const double length = glm::length(d);
     return length > 0.0 ? d / length : glm::dvec3(0.0, 0.0, 1.0);
   };
-  if (const auto hole = middle_of_pupil_hole(model, surface, parts, role, center, direction(), 0.5 * *iris_diameter)) {
+  double radius = iris_radius(*iris_diameter, parts, role);
+  if (const auto hole = middle_of_pupil_hole(model, surface, parts, role, center, direction(), radius)) {
     middle = *hole;
   } else if (pupil->vertex) {
     const SurfaceVertexId marked = surface.surface_of[pupil->vertex->value()];
@@ -180,7 +182,6 @@ std::optional<IrisOfEye> find_iris(const Model& model, const Surface& surface, s
 
   IrisOfEye found;
   found.shape.axis = glm::vec3(axis);
-  double radius = 0.5 * *iris_diameter;
   std::vector<Layer> layers = layers_of(surface, parts, role, axis, center, radius);
   // In front of another layer, and also in front of the middle of the iris: excludes a ball with a hole for the iris.
   const auto lies_over = [&](const Layer& a, const Layer& b) {

@@ -15,11 +15,11 @@
 #include "core/materials/eye_texture.h"
 #include "core/materials/painted_primitives.h"
 #include "core/materials/plain_materials.h"
+#include "core/types/iris_size.h"
 
 namespace semblante {
 namespace {
 
-constexpr float iris_of_ball = 0.49F;             ///< radius of the iris by that of the eyeball, of adults
 constexpr float widest_span = 4.0F;               ///< radii of the iris that the texture shows at most
 constexpr float widest_disc = 1.4F;               ///< radii of the iris; the white of an open eye is wider
 constexpr float widest_round = 2.0F;              ///< of a disc as high as wide: half closed lids hide some of an iris
@@ -304,8 +304,8 @@ EyeLook eyes_of(const Rig& rig) {
     if (pupil == rig.points.end() || !diameter) continue;
     const glm::vec3 gaze = pupil->position - pivots[e];
     if (!(glm::length(gaze) > 0.0F)) continue;
-    const auto radius = static_cast<float>(512.0 * *diameter);
-    look.eyes[e] = PaintedEye{pivots[e], glm::normalize(gaze), radius};
+    const auto radius = iris_radius(1024.0 * *diameter, rig.parts, e == 0 ? PartRole::left_eye : PartRole::right_eye);
+    look.eyes[e] = PaintedEye{pivots[e], glm::normalize(gaze), static_cast<float>(radius)};
   }
   return look;
 }

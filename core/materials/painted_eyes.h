@@ -25,8 +25,8 @@ struct EyeLook {
   std::span<const RigidMotion> motion;
 };
 
-/// The eyes of a parametrized head. An eye is painted at its iris in `rig`; without one, around its pupil (3.5, 3.6)
-/// with the diameter IRISD0, because the lids of the neutral face touch the iris. The result refers to `rig`.
+/// The eyes of a parametrized head. An eye is painted at its iris in `rig`; without one, around its pupil (3.5, 3.6) in
+/// the size of `iris_radius` (core/types/iris_size.h). The result refers to `rig`.
 EyeLook eyes_of(const Rig& rig);
 
 /// The eyes of a head without feature points, by the bounding boxes of its eyeballs; they look straight ahead.

@@ -47,11 +47,15 @@ struct Found {
   std::string why_not;
 };
 
-/// Of an eye whose parts are those of the model; IRISD0 is 6.
-Found find(const Model& model, const FeaturePointSet& points) {
+/// Of an eye whose parts are those of the model; IRISD0 is 6. `ball_radius` 0: none of the parts is one.
+Found find(const Model& model, const FeaturePointSet& points, float ball_radius = 0.0F) {
   const Surface surface = build_surface(model);
   std::vector<Part> parts(surface.part_count());
-  for (Part& part : parts) part.role = PartRole::left_eye;
+  for (Part& part : parts) {
+    part.role = PartRole::left_eye;
+    part.box_min = glm::vec3(-ball_radius);
+    part.box_max = glm::vec3(ball_radius);
+  }
   Found found;
   found.iris = find_iris(model, surface, parts, PartRole::left_eye, points, glm::vec3(0.0F), 6.0, found.why_not);
   return found;
@@ -78,6 +82,14 @@ TEST(Iris, OfABall_IsWithinIrisd0AndBentAsTheBall) {
   EXPECT_FLOAT_EQ(found.iris->shape.iris_radius, 3.0F);
   EXPECT_NEAR(found.iris->shape.bend, -0.05F, 0.002F);
   EXPECT_EQ(found.iris->vertices.size(), 1U + 3U * 8U);
+}
+
+TEST(Iris, BehindLidsFarApart_IsNoLargerThanAChilds) {
+  const Model ball = cap(5.0F, {0.5F, 1.0F, 2.0F, 2.7F, 2.9F, 4.0F}, true);
+  const Found found = find(ball, pupil_at(ball, 0), 5.0F);
+  ASSERT_TRUE(found.iris.has_value()) << found.why_not;
+  EXPECT_FLOAT_EQ(found.iris->shape.iris_radius, 2.75F);  // 0.55 of 5; half of IRISD0 is 3
+  EXPECT_EQ(found.iris->vertices.size(), 1U + 4U * 8U);
 }
 
 TEST(Iris, UnderACornea_MovesAlone) {

@@ -13,6 +13,7 @@
 
 #include "core/materials/eye_texture.h"
 #include "core/materials/materials.h"
+#include "tests/support/meshes.h"
 
 namespace semblante {
 namespace {
@@ -369,6 +370,24 @@ TEST(PaintedEyes, AHeadWithoutEyes_StaysAsItIs) {
   EXPECT_TRUE(eyes.model.materials.empty());
   EXPECT_TRUE(eyes.model.images.empty());
   EXPECT_TRUE(eyes.model.uv_triangles.empty());
+}
+
+TEST(EyesOf, AnEyeWithoutAnIris_IsPaintedInTheSizeOfIrisd_ButNoLargerThanAChilds) {
+  Rig rig;
+  rig.points = {{testing::fp("3.5"), std::nullopt, {30.0F, 0.0F, 12.0F}}};
+  rig.left_eye_pivot = {30.0F, 0.0F, 0.0F};
+  rig.parts.resize(1);
+  rig.parts[0].role = PartRole::left_eye;
+  rig.parts[0].box_min = {18.0F, -12.0F, -12.0F};
+  rig.parts[0].box_max = {42.0F, 12.0F, 12.0F};
+  const auto radius_at = [&](double irisd0) {
+    rig.fapu.value[static_cast<std::size_t>(FapuUnit::irisd)] = irisd0 / 1024.0;
+    return eyes_of(rig).eyes[0].value().iris_radius;
+  };
+  EXPECT_FLOAT_EQ(radius_at(11.0), 5.5F);
+  EXPECT_FLOAT_EQ(radius_at(20.0), 6.6F);  // 0.55 of 12
+  rig.parts[0].box_min.z = 8.0F;           // a flat eye
+  EXPECT_FLOAT_EQ(radius_at(20.0), 10.0F);
 }
 
 TEST(GuessedEyes, LookAhead_FromTheFrontOfTheirBalls) {
