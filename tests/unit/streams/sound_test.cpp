@@ -300,7 +300,7 @@ TEST_F(PublishedSoundTest, NextPublisher_IsHeardWhenTheSoundBeforeItHasEnded) {
   EXPECT_GE(sounds[2].media_time, sounds[1].media_time + 20);
 }
 
-TEST_F(PublishedSoundTest, MoreBytesThanOpusHas_AreThrottledAndThenClosed) {
+TEST_F(PublishedSoundTest, MoreBytesThanOpusHas_AreThrottled) {
   const Bytes large(4000, 0x08);
   std::uint64_t at = 5000;
   std::vector<Message> answers;
@@ -312,7 +312,12 @@ TEST_F(PublishedSoundTest, MoreBytesThanOpusHas_AreThrottledAndThenClosed) {
   EXPECT_GE(sounds_of(listener_->take_all()).size(), 64U);
   ASSERT_EQ(answers.size(), 1U);
   EXPECT_EQ(std::get<StreamError>(answers[0]).code, StreamErrorCode::throttled);
-  for (int k = 0; k < 10'000 && !publisher_->socket->closed(); ++k) sound(at, large);
+}
+
+// Packets that overlap are small: even a slow machine sends more of them than may be refused in a second.
+TEST_F(PublishedSoundTest, TooManyRefusedPackets_CloseTheConnection) {
+  sound(5000);
+  for (int k = 0; k < 10'000 && !publisher_->socket->closed(); ++k) sound(5000);
   ASSERT_TRUE(publisher_->socket->closed());
   EXPECT_EQ(publisher_->socket->closed()->code, 1008);
 }
