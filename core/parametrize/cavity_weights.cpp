@@ -55,7 +55,6 @@ class Diffusion {
   void solve() {
     const std::size_t members = cavity_.members.size();
     SparseMatrix matrix;
-    std::vector<glm::dvec3> positions;
     for (std::uint32_t m = 0; m < members; ++m) {
       const auto links = links_of(m);
       const float pull = static_cast<float>(std::max<std::size_t>(links.size(), 1)) * pull_[m];
@@ -72,9 +71,8 @@ class Diffusion {
       }
       matrix.diagonal.push_back(all);
       matrix.offsets.push_back(static_cast<std::uint32_t>(matrix.entries.size()));
-      positions.push_back(surface_.positions[cavity_.members[m].value()]);
     }
-    SparseCholesky(matrix, dissection_order(matrix, positions)).solve(rows_, blocks_);
+    solve_by_cholesky(matrix, rows_, blocks_);
   }
 
   [[nodiscard]] WeightRow row(std::size_t member) const {
@@ -292,10 +290,9 @@ WeightTable<double> cavity_rows(const Surface& surface, const Cavity& cavity, do
   Diffusion diffusion(surface, cavity, unit, row_of);
   diffusion.solve();
   WeightTable<double> rows;
-  std::vector<std::size_t> order;
   for (std::size_t m = 0; m < cavity.members.size(); ++m) {
     WeightRow row = diffusion.row(m);
-    keep_greatest(row, order);
+    keep_greatest(row);
     push_row(rows, row);
   }
   return rows;

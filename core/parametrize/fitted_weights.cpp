@@ -161,7 +161,7 @@ class PartFit {
     if (sum > 1.0) {
       for (double& w : row) w /= sum;
     }
-    keep_greatest(row, order_);
+    keep_greatest(row);
     return row;
   }
 
@@ -199,7 +199,6 @@ class PartFit {
   std::size_t first_ = 0;
   std::vector<double> wanted_;  ///< of the block, by member
   std::vector<double> smooth_row_, ridges_, fitted_, others_, left_out_, slope_;
-  std::vector<std::size_t> order_;
   FittedWeights result_;
 };
 

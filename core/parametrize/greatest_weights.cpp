@@ -1,35 +1,40 @@
 #include "core/parametrize/greatest_weights.h"
 
 #include <algorithm>
+#include <array>
 
 namespace semblante {
 
-void keep_greatest(WeightRow& weights, std::vector<std::size_t>& order) {
+void keep_greatest(WeightRow& weights) {
   const auto positive = std::count_if(weights.begin(), weights.end(), [](double w) { return w > 0.0; });
   if (static_cast<std::size_t>(positive) <= max_smooth_influences) return;
-  order.clear();
+  // The greatest first, of equal ones the lower id; and the first that is dropped.
+  struct Entry {
+    double weight = 0.0;
+    std::size_t id = 0;
+  };
+  std::array<Entry, max_smooth_influences + 1> greatest{};
   for (std::size_t id = 0; id < weights.size(); ++id) {
-    if (weights[id] > 0.0) order.push_back(id);
+    const double weight = weights[id];
+    if (!(weight > greatest.back().weight)) continue;
+    std::size_t at = max_smooth_influences;
+    for (; at > 0 && weight > greatest[at - 1].weight; --at) greatest[at] = greatest[at - 1];
+    greatest[at] = {weight, id};
   }
-  std::partial_sort(
-      order.begin(), order.begin() + max_smooth_influences + 1, order.end(),
-      [&](std::size_t a, std::size_t b) { return weights[a] != weights[b] ? weights[a] > weights[b] : a < b; });
-  const double first_out = weights[order[max_smooth_influences]];
+  const double first_out = greatest.back().weight;
   const double all = sum_of(weights);
   double kept = 0.0;
   double lowered = 0.0;
   for (std::size_t k = 0; k < max_smooth_influences; ++k) {
-    kept += weights[order[k]];
-    lowered += weights[order[k]] - first_out;
+    kept += greatest[k].weight;
+    lowered += greatest[k].weight - first_out;
   }
   const double share = std::min(1.0, lowered / (all / 4.0));  // of the continuous choice
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    double& w = weights[order[k]];
-    if (k >= max_smooth_influences) {
-      w = 0.0;
-    } else {
-      w = all * ((share > 0.0 ? share * (w - first_out) / lowered : 0.0) + (1.0 - share) * w / kept);
-    }
+  weights.fill(0.0);
+  for (std::size_t k = 0; k < max_smooth_influences; ++k) {
+    const double w = greatest[k].weight;
+    weights[greatest[k].id] =
+        all * ((share > 0.0 ? share * (w - first_out) / lowered : 0.0) + (1.0 - share) * w / kept);
   }
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <vector>
 
 #include "core/parametrize/weight_row.h"
 #include "core/types/weight_table.h"
@@ -15,9 +14,8 @@ inline constexpr double least_weight = 1e-4;
 
 /// Keeps the `max_smooth_influences` greatest weights and their sum. The greatest dropped weight is subtracted from all
 /// of them, so that a weight is zero when it is dropped. If that would leave almost nothing (many points equally far)
-/// no choice is continuous: then the greatest are kept unchanged, among equal ones those of lower ids. `order`:
-/// scratch.
-void keep_greatest(WeightRow& weights, std::vector<std::size_t>& order);
+/// no choice is continuous: then the greatest are kept unchanged, among equal ones those of lower ids.
+void keep_greatest(WeightRow& weights);
 
 /// Ends the table with a row of these weights, without those below `least_weight`.
 void push_row(WeightTable<double>& table, const WeightRow& weights);

@@ -130,7 +130,6 @@ WeightTable<double> smooth_part_weights(const Surface& surface, const PointDista
   WeightPrior::Places places;
   for (const SurfacePoint& point : distances.points)
     places[point.id.value()] = {point.vertex.value(), point.position / unit};
-  std::vector<std::size_t> order;
   const auto smooth_row = [&](std::size_t m) {
     Row row = row_of_points(points, m);
     for (const SiteKriging::Term& term : edges.at(m)) {
@@ -139,9 +138,9 @@ WeightTable<double> smooth_part_weights(const Surface& surface, const PointDista
       for (std::size_t id = 0; id < row.size(); ++id) row[id] += term.weight * corrections[site][id];
     }
     cut(row);
-    keep_greatest(row, order);
+    keep_greatest(row);
     prior.correct(row, surface.positions[distances.members[m].value()] / unit, places);
-    keep_greatest(row, order);
+    keep_greatest(row);
     return row;
   };
   // Cavities ask for the same rows again and again: those of the rim and of the skin in front.

@@ -9,7 +9,8 @@ fail() {
 # What the server and the studio are built with and run on. Why each is needed: deploy/README.md.
 product_packages=(build-essential cmake ninja-build pkg-config
   'libboost1.81-dev|libboost-dev|libboost1.74-dev|libboost1.83-dev|libboost1.88-dev' libssl-dev zlib1g-dev libzip-dev libsqlite3-dev
-  libwebp-dev libtinygltf-dev libdraco-dev libmeshoptimizer-dev libstb-dev nlohmann-json3-dev libglm-dev libcli11-dev libqrencode-dev libseccomp-dev
+  libwebp-dev libtinygltf-dev libdraco-dev libmeshoptimizer-dev libstb-dev nlohmann-json3-dev libglm-dev libeigen3-dev libcli11-dev libqrencode-dev
+  libseccomp-dev
   libopus-dev libogg-dev libsndfile1-dev libsamplerate0-dev libespeak-ng-dev
   libpocketsphinx-dev pocketsphinx-en-us
   'clang|clang-14' 'lld|lld-14' wasi-libc 'libc++-14-dev-wasm32|libc++-dev-wasm32|libc++-18-dev-wasm32'
@@ -18,7 +19,7 @@ product_packages=(build-essential cmake ninja-build pkg-config
 # What the native client and the tests need beyond that.
 test_packages=(libegl-dev libgles-dev libegl1 libgles2 libgl1-mesa-dri libsdl2-dev
   g++-aarch64-linux-gnu 'qemu-user-static|qemu-user' clang 'libclang-rt-dev|libclang-rt-14-dev|libclang-rt-18-dev'
-  libeigen3-dev libgtest-dev libgmock-dev 'clang-format-14|clang-format' 'clang-tidy-14|clang-tidy'
+  libgtest-dev libgmock-dev 'clang-format-14|clang-format' 'clang-tidy-14|clang-tidy'
   'chromium|chromium-browser' fonts-dejavu-core python3 python3-yaml git ccache)
 
 # Unpacked beside the build where it is not installed: it depends on OpenSceneGraph, 162 packages of 414 MB, for headers that

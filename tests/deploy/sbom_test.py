@@ -15,7 +15,7 @@ LICENCE = re.compile(r"[A-Za-z0-9.-]+( (WITH|OR|AND) [A-Za-z0-9.-]+)*")
 # Other people's code that #includes and imports name, by what they begin with, and the component that must be listed.
 INCLUDED = {"boost/": "libboost", "nlohmann/": "nlohmann-json3-dev", "glm/": "libglm-dev", "CLI/": "libcli11-dev", "tiny_gltf.h": "libtinygltf-dev",
             "stb/": "libstb-dev", "openssl/": "libssl", "opus.h": "libopus", "ogg/": "libogg", "samplerate.h": "libsamplerate", "qrencode.h": "libqrencode", "sqlite3.h": "libsqlite3", "zlib.h": "zlib1g", "zip.h": "libzip", "webp/": "libwebp",
-            "meshoptimizer.h": "libmeshoptimizer", "draco/": "libdraco", "OpenMesh/": "libopenmesh"}
+            "meshoptimizer.h": "libmeshoptimizer", "draco/": "libdraco", "OpenMesh/": "libopenmesh", "Eigen/": "libeigen3-dev"}
 # Programs of their own, each in a package of its own; that of the voice is under the licence of its library.
 APART = ("server/voice/espeak", "server/voice/pocketsphinx", "server/voice/sound")
 SYSTEM = re.compile(r"(sys|net|netinet|arpa|linux|asm)/|[a-z0-9_]+(\.h)?$")
