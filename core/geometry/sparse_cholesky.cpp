@@ -1,5 +1,6 @@
 #include "core/geometry/sparse_cholesky.h"
 
+#include <algorithm>
 #include <cassert>
 
 #include <Eigen/SparseCholesky>
@@ -29,10 +30,17 @@ Eigen::SparseMatrix<double> lower_triangle(const SparseMatrix& matrix) {
 // that nested dissection by positions needs. Eigen's own solution would go through the factor for each column of the
 // right-hand sides; here a vertex's columns lie beside each other.
 void solve_by_cholesky(const SparseMatrix& matrix, std::span<glm::vec4> rows, std::size_t width) {
-  const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::AMDOrdering<int>> cholesky(
-      lower_triangle(matrix));
-  assert(cholesky.info() == Eigen::Success);
+  if (matrix.diagonal.empty()) return;
   using Factor = Eigen::SparseMatrix<double>;
+  const Factor lower = lower_triangle(matrix);
+  Eigen::SimplicialLLT<Factor, Eigen::Lower, Eigen::AMDOrdering<int>> cholesky(lower);
+  // Rounding may make a pivot zero or negative, where edges of one mesh differ by many orders of magnitude.
+  const double greatest = *std::max_element(matrix.diagonal.begin(), matrix.diagonal.end());
+  for (double shift = 1e-14; cholesky.info() != Eigen::Success && shift < 1.0; shift *= 100.0) {
+    cholesky.setShift(shift * greatest);
+    cholesky.factorize(lower);
+  }
+  assert(cholesky.info() == Eigen::Success);
   const Factor& factor = cholesky.matrixL().nestedExpression();
   const auto& order = cholesky.permutationPinv().indices();  // of the factor's columns
   const auto row_of = [&](Eigen::Index column) { return &rows[static_cast<std::size_t>(order[column]) * width]; };

@@ -72,5 +72,14 @@ TEST(SparseCholesky, EdgesAMillionTimesAsStrong_LeaveTheOthersExact) {
   for (const glm::vec4& row : rows) EXPECT_NEAR(row.x, 1.0F, 1e-3F);
 }
 
+TEST(SparseCholesky, EdgesSoStrongThatRoundingTakesThePivots_GiveFiniteSolutions) {
+  const GridSystem system(20, 1e20);
+  std::vector<glm::vec4> rows(system.matrix.diagonal.size(), glm::vec4(0.01F));
+  solve_by_cholesky(system.matrix, rows, 1);
+  for (std::size_t r = 0; r < rows.size(); ++r) EXPECT_TRUE(std::isfinite(rows[r].x)) << r;
+}
+
+TEST(SparseCholesky, NoEquations_AreSolved) { solve_by_cholesky({}, {}, 1); }
+
 }  // namespace
 }  // namespace semblante
