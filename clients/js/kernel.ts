@@ -198,7 +198,7 @@ export class Kernel {
     }
     let prepared: Prepared | null = null;
     try {
-      if (vertices > 0) prepared = prepare(runtime, base + faceAt);
+      if (vertices > 0) prepared = prepare(runtime, base + faceAt, base + rigAt);
       if (turned > 0) {
         const scratch = runtime.alloc(exports.semblante_join_scratch(turned) * 4);
         exports.semblante_join_seams(turned, base + rest, base + ownNormals, scratch, base + joined);
@@ -347,12 +347,12 @@ interface Prepared {
   face: number;
 }
 
-/** Prepares the face at address `face` for fast deformation. */
-function prepare(runtime: Runtime, face: number): Prepared {
+/** Prepares the face at address `face` for fast deformation by poses of the rig at address `rig`. */
+function prepare(runtime: Runtime, face: number, rig: number): Prepared {
   const bytes = runtime.functions.semblante_prepared_size(face);
   if (bytes === 0) throw new FaceError('malformed', 'weights: feature points of a vertex are not increasing');
   const memory = runtime.alloc(bytes);
-  return { memory, face: runtime.functions.semblante_prepare(face, memory) };
+  return { memory, face: runtime.functions.semblante_prepare_for(face, rig, memory) };
 }
 
 /** #sets by 84 by 3 */

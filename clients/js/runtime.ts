@@ -47,7 +47,7 @@ export interface Functions extends Memory {
   semblante_interpolate(a: number, b: number, t: number, out: number): void;
   semblante_ease(before: number, from: number, to: number, after: number, spans: number, t: number, out: number): void;
   semblante_prepared_size(face: number): number;
-  semblante_prepare(face: number, memory: number): number;
+  semblante_prepare_for(face: number, rig: number, memory: number): number;
   semblante_join_scratch(vertices: number): number;
   semblante_join_seams(vertices: number, positions: number, normals: number, scratch: number, joined: number): void;
   semblante_normals(triangles: number, positions: number, normals: number): void;

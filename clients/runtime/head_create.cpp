@@ -42,7 +42,7 @@ void fill_face(semblante_head& head, bool computes_vertices) {
   if (!computes_vertices) return;
   // Cannot be 0: decode_weights refuses rows whose points are not rising.
   head.prepared_memory.reset(::operator new (semblante_prepared_size(&head.face), std::align_val_t{64}));
-  head.prepared = semblante_prepare(&head.face, head.prepared_memory.get());
+  head.prepared = semblante_prepare_for(&head.face, &head.rig, head.prepared_memory.get());
 }
 
 void fill_triangles(semblante_head& head, const Mesh& mesh, bool computes_vertices) {

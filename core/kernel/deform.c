@@ -40,7 +40,10 @@ static void move_part(const semblante_local_motions* local, const semblante_face
     if (rigid == SEMBLANTE_RIGID_LEFT_LIDS + eye) {
       const float upper = weight_of(face, v, SEMBLANTE_UPPER_LID(eye));
       const float lower = weight_of(face, v, SEMBLANTE_LOWER_LID(eye));
-      roll_lids(&local->lids[eye], 1, upper, lower, rest, p);
+      float way = 0.0F;
+      if (roll_lids(&local->lids[eye], 1, upper, lower, rest, p, &way)) {
+        clear_ball(&local->lids[eye], 1, way, rest, NULL, p);
+      }
     }
     if (rigid == SEMBLANTE_RIGID_LEFT_IRIS + eye) {
       move_iris(&pose->iris[eye], pose->eye_pivot[eye], pose->pupil_growth[eye], rest, p);

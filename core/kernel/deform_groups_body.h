@@ -55,6 +55,7 @@ typedef struct cursor {
   const uint8_t* points;
   const uint32_t* first;
   const uint8_t* lids;
+  const reg* clearance;
   uint32_t written;
 } cursor;
 
@@ -72,12 +73,30 @@ static inline __attribute__((always_inline)) reg lid_weights(const reg* weights,
 #define EACH_FUNCTION static __attribute__((noinline))
 #endif
 
-/* The lids of one eye in one register. `at`: where their upper and lower point are, see semblante_prepared_face.lids.
+/* A register of vertices of lids, between the motions. */
+typedef struct lid_register {
+  reg p[3];
+  reg way;    /* see clear_ball */
+  mask close; /* the lanes that clear_ball is still to move */
+  const reg* rest;
+  const reg* clearance; /* at rest, or null */
+} lid_register;
+
+/* The lids of one eye in one register r of a group, by Eq. 7 at l->p, rolled but not yet clear of the ball. `at`: where
+ * their upper and lower point are, see semblante_prepared_face.lids; `clearance`: that of the group at rest, or null.
  */
 EACH_FUNCTION void roll_register(const semblante_lid_roll* roll, mask where, const reg* weights, uint32_t r,
-                                 const uint8_t* at, const reg* rest, reg p[3]) {
+                                 const uint8_t* at, const reg* rest, const reg* clearance, lid_register* l) {
   const reg own_rest[3] = {rest[r], rest[REGISTERS + r], rest[2 * REGISTERS + r]};
-  roll_lids(roll, where, lid_weights(weights, r, at[0]), lid_weights(weights, r, at[1]), own_rest, p);
+  l->rest = rest + r;
+  l->clearance = clearance != NULL ? clearance + r : NULL;
+  l->close =
+      roll_lids(roll, where, lid_weights(weights, r, at[0]), lid_weights(weights, r, at[1]), own_rest, l->p, &l->way);
+}
+
+EACH_FUNCTION void clear_register(const semblante_lid_roll* roll, lid_register* l) {
+  const reg own_rest[3] = {l->rest[0], l->rest[REGISTERS], l->rest[2 * REGISTERS]};
+  clear_ball(roll, l->close, l->way, own_rest, l->clearance, l->p);
 }
 
 /* The tongue's motion, vertex by vertex: few heads roll it often. */
@@ -115,7 +134,7 @@ EACH_FUNCTION void turn_each(const semblante_rigid_motion* head, const float rot
 /* Local motions and the head's where vertices of one register differ in them. */
 static __attribute__((noinline)) void move_each(const semblante_prepared_face* face, const semblante_group_pose* pose,
                                                 const reg* weights, const uint8_t* lid_points, uint32_t r,
-                                                uint32_t first, const reg* rest, reg p[3]) {
+                                                uint32_t first, const reg* rest, const reg* clearance, reg p[3]) {
   const uint8_t* const rigid = face->rigid + first;
   const ints parts = load_bytes(rigid);
   if (any(~equals(parts, SEMBLANTE_RIGID_NONE))) {
@@ -124,7 +143,13 @@ static __attribute__((noinline)) void move_each(const semblante_prepared_face* f
     for (int eye = 0; eye < 2; ++eye) {
       const mask lids = equals(parts, SEMBLANTE_RIGID_LEFT_LIDS + eye);
       if (any(lids)) {
-        roll_register(&pose->local.lids[eye], lids, weights, r, lid_points + 2 * eye, rest, p);
+        lid_register l = {.p = {p[0], p[1], p[2]}};
+        roll_register(&pose->local.lids[eye], lids, weights, r, lid_points + 2 * eye, rest,
+                      pose->knows_clearance[eye] ? clearance : NULL, &l);
+        if (any(l.close)) {
+          clear_register(&pose->local.lids[eye], &l);
+        }
+        p[0] = l.p[0], p[1] = l.p[1], p[2] = l.p[2];
       }
       const mask iris = equals(parts, SEMBLANTE_RIGID_LEFT_IRIS + eye);
       const mask ball = iris | equals(parts, SEMBLANTE_RIGID_LEFT_EYE + eye);
@@ -192,6 +217,62 @@ static inline __attribute__((always_inline)) void sum_group(const float (*fp)[4]
 /* The motions of a run's vertices after Eq. 7. */
 typedef enum after { AFTER_NOTHING, AFTER_HEAD, AFTER_PART_AND_HEAD, AFTER_LIDS, AFTER_NECK, AFTER_EACH } after;
 
+/* A run of lids in batches: each motion of all groups of a batch before the next motion. Each is a long chain of
+ * dependent operations, of which the processor overlaps more the shorter they are; and what few groups need is not
+ * skipped by branches that are predicted wrongly. */
+#define LID_BATCH (16U / REGISTERS)
+
+static inline __attribute__((always_inline)) void deform_lids(const semblante_prepared_face* face,
+                                                              const semblante_group_pose* pose, float* positions,
+                                                              const semblante_run* run, cursor* at) {
+  const semblante_rigid_motion head = pose->head;
+  const uint32_t count = run->point_count;
+  const uint32_t eye = run->part == SEMBLANTE_GROUP_RIGHT_LIDS;
+  const semblante_lid_roll* const roll = &pose->local.lids[eye];
+  const uint8_t* const changed = pose->head_changed || pose->local_changed ? NULL : pose->changed_points;
+  for (uint32_t left = run->group_count; left > 0;) {
+    lid_register batch[LID_BATCH * REGISTERS];
+    lid_register* close[LID_BATCH * REGISTERS];
+    uint32_t first[LID_BATCH];
+    uint32_t groups = 0;
+    uint32_t close_count = 0;
+    for (; groups < LID_BATCH && left > 0; --left) {
+      if (changed == NULL || any_changed(changed, at->points, count)) {
+        reg p[REGISTERS][3];
+        sum_group(pose->fp, at->points, at->weights, count, at->rest, p);
+        for (uint32_t r = 0; r < REGISTERS; ++r) {
+          lid_register* const l = &batch[groups * REGISTERS + r];
+          l->p[0] = p[r][0], l->p[1] = p[r][1], l->p[2] = p[r][2];
+          const mask where = equals(load_bytes(face->rigid + *at->first + r * SEMBLANTE_LANES),
+                                    (int32_t)(SEMBLANTE_RIGID_LEFT_LIDS + eye));
+          roll_register(roll, where, at->weights, r, at->lids + eye * 2U, at->rest,
+                        pose->knows_clearance[eye] ? at->clearance : NULL, l);
+          close[close_count] = l;
+          close_count += any(l->close) ? 1U : 0U;
+        }
+        first[groups++] = *at->first;
+      }
+      at->weights += count * REGISTERS;
+      at->rest += 3 * REGISTERS;
+      at->points += count;
+      at->first += 1;
+      at->lids += 4;
+      at->clearance += REGISTERS;
+    }
+    for (uint32_t c = 0; c < close_count; ++c) {
+      clear_register(roll, close[c]);
+    }
+    for (uint32_t r = 0; r < groups * REGISTERS; ++r) {
+      reg* const p = batch[r].p;
+      if (pose->head_moves) {
+        move_rigidly(&head, 0, p);
+      }
+      store_rows(p[0], p[1], p[2], positions + ((size_t)first[r / REGISTERS] + (r % REGISTERS) * SEMBLANTE_LANES) * 3);
+    }
+    at->written += groups * SEMBLANTE_GROUP;
+  }
+}
+
 static inline __attribute__((always_inline)) void deform_run(const semblante_prepared_face* face,
                                                              const semblante_group_pose* pose, float* positions,
                                                              const semblante_run* run, uint32_t count, after then,
@@ -210,6 +291,8 @@ static inline __attribute__((always_inline)) void deform_run(const semblante_pre
   const uint8_t* points = at->points;
   const uint32_t* const first = at->first;
   const uint8_t* const lids = at->lids;
+  const reg* const clearance = at->clearance;
+  const int has_lids = semblante_has_lids(run->part);
   uint32_t written = 0;
   for (uint32_t g = 0; g < groups; ++g) {
     if (changed == NULL || any_changed(changed, points, count)) {
@@ -221,7 +304,8 @@ static inline __attribute__((always_inline)) void deform_run(const semblante_pre
         float partial[SEMBLANTE_GROUP * 3];
         float* const whole_group = left < SEMBLANTE_GROUP ? partial : to;
         for (uint32_t r = 0; r < REGISTERS; ++r) {
-          move_each(face, pose, weights, lids + g * 4U, r, first[g] + r * SEMBLANTE_LANES, rest, p[r]);
+          move_each(face, pose, weights, lids + g * 4U, r, first[g] + r * SEMBLANTE_LANES, rest,
+                    has_lids ? clearance + g * REGISTERS : NULL, p[r]);
           store_rows(p[r][0], p[r][1], p[r][2], whole_group + (size_t)r * SEMBLANTE_LANES * 3);
         }
         for (uint32_t i = 0; left < SEMBLANTE_GROUP && i < left * 3; ++i) {
@@ -229,15 +313,6 @@ static inline __attribute__((always_inline)) void deform_run(const semblante_pre
         }
       } else {
         for (uint32_t r = 0; r < REGISTERS; ++r) {
-          if (then == AFTER_LIDS) {
-            const uint32_t eye = run->part == SEMBLANTE_GROUP_RIGHT_LIDS;
-            const mask where = equals(load_bytes(face->rigid + first[g] + r * SEMBLANTE_LANES),
-                                      (int32_t)(SEMBLANTE_RIGID_LEFT_LIDS + eye));
-            roll_register(&pose->local.lids[eye], where, weights, r, lids + g * 4U + eye * 2U, rest, p[r]);
-            if (pose->head_moves) {
-              move_rigidly(&head, 0, p[r]);
-            }
-          }
           if (then == AFTER_NECK) {
             turn_each(&head, pose->head_rotation, load_bytes(face->turn + first[g] + r * SEMBLANTE_LANES), p[r]);
           }
@@ -261,6 +336,7 @@ static inline __attribute__((always_inline)) void deform_run(const semblante_pre
   at->points = points;
   at->first = first + groups;
   at->lids = lids + groups * 4U;
+  at->clearance = clearance + (has_lids ? groups * REGISTERS : 0U);
   at->written += written * SEMBLANTE_GROUP;
 }
 
@@ -319,7 +395,13 @@ static after after_of(uint32_t part, const semblante_group_pose* pose, uint32_t*
 
 uint32_t SEMBLANTE_DEFORM_GROUPS(const semblante_prepared_face* face, const semblante_group_pose* pose,
                                  float* positions) {
-  cursor at = {(const reg*)face->rest, (const reg*)face->weights, face->points, face->first, face->lids, 0};
+  cursor at = {(const reg*)face->rest,
+               (const reg*)face->weights,
+               face->points,
+               face->first,
+               face->lids,
+               (const reg*)face->clearance,
+               0};
   for (uint32_t r = 0; r < face->run_count; ++r) {
     const semblante_run* const run = &face->runs[r];
     uint32_t eye = 0;
@@ -334,7 +416,7 @@ uint32_t SEMBLANTE_DEFORM_GROUPS(const semblante_prepared_face* face, const semb
         deform_run(face, pose, positions, run, run->point_count, AFTER_PART_AND_HEAD, &pose->local.eye[eye], &at);
         break;
       case AFTER_LIDS:
-        deform_run(face, pose, positions, run, run->point_count, AFTER_LIDS, NULL, &at);
+        deform_lids(face, pose, positions, run, &at);
         break;
       case AFTER_NECK:
         deform_run(face, pose, positions, run, run->point_count, AFTER_NECK, NULL, &at);

@@ -39,7 +39,7 @@ static int differ(const float* a, const float* b, uint32_t count) {
   return 0;
 }
 
-static void prepare_pose(const semblante_pose* pose, semblante_group_pose* out) {
+static void prepare_pose(const semblante_prepared_face* face, const semblante_pose* pose, semblante_group_pose* out) {
   static const float still[3] = {0.0F, 0.0F, 0.0F};
   for (uint32_t fp = 0; fp < SEMBLANTE_FP_COUNT; ++fp) {
     for (uint32_t i = 0; i < 3; ++i) {
@@ -56,6 +56,9 @@ static void prepare_pose(const semblante_pose* pose, semblante_group_pose* out) 
     out->eye_moves[eye] =
         differ(&out->local.eye[eye].change[0][0], none, 9) || differ(out->local.eye[eye].translation, none, 3);
     out->iris_moves[eye] = pose->pupil_growth[eye] != 0.0F;
+    out->knows_clearance[eye] = !differ(pose->lids[eye].gaze, face->lids_of_rig[eye].gaze, 3) &&
+                                !differ(pose->lids[eye].ball, face->lids_of_rig[eye].ball, SEMBLANTE_BALL_PLACES) &&
+                                !differ(pose->eye_pivot[eye], face->eye_pivot[eye], 3);
   }
   out->tongue_moves = pose->tongue_roll != 0.0F;
   out->changed_points = NULL;
@@ -66,7 +69,7 @@ static void prepare_pose(const semblante_pose* pose, semblante_group_pose* out) 
 void semblante_deform_by(const semblante_deform_variant* variant, const semblante_prepared_face* face,
                          const semblante_pose* pose, float* positions) {
   semblante_group_pose prepared;
-  prepare_pose(pose, &prepared);
+  prepare_pose(face, pose, &prepared);
   variant->run(face, &prepared, positions);
 }
 
@@ -83,7 +86,7 @@ static semblante_deform_groups best(const semblante_prepared_face* face) {
 SEMBLANTE_EXPORT(semblante_deform_prepared)
 void semblante_deform_prepared(const semblante_prepared_face* face, const semblante_pose* pose, float* positions) {
   semblante_group_pose prepared;
-  prepare_pose(pose, &prepared);
+  prepare_pose(face, pose, &prepared);
   best(face)(face, &prepared, positions);
 }
 
@@ -103,8 +106,8 @@ uint32_t semblante_deform_changed(const semblante_prepared_face* face, const sem
                                   const semblante_pose* now, float* positions) {
   semblante_group_pose prepared;
   semblante_group_pose previous;
-  prepare_pose(now, &prepared);
-  prepare_pose(before, &previous);
+  prepare_pose(face, now, &prepared);
+  prepare_pose(face, before, &previous);
   uint8_t changed[SEMBLANTE_FP_COUNT];
   for (uint32_t fp = 0; fp < SEMBLANTE_FP_COUNT; ++fp) {
     changed[fp] = (uint8_t)differ(prepared.fp[fp], previous.fp[fp], 3);

@@ -3,6 +3,8 @@
 #ifndef SEMBLANTE_KERNEL_LANE_MOTIONS_H
 #define SEMBLANTE_KERNEL_LANE_MOTIONS_H
 
+#include <stddef.h>
+
 #include "core/kernel/lanes.h"
 #include "core/kernel/local_motion.h"
 
@@ -79,35 +81,38 @@ LANE_FUNCTION reg radius_towards(const semblante_lids* lids, const float pole[3]
   return here + (at - as_reals(k)) * (next - here);
 }
 
-/* Moves p away from the ball to the vertex's clearance. `way`: by which its height changes. */
-LANE_FUNCTION void clear_ball(const semblante_lid_roll* roll, mask where, reg way, const reg rest[3], reg p[3]) {
+/* The distance of a vertex from the ball on the neutral face, negative inside; not a number at the pivot itself. */
+LANE_FUNCTION reg clearance_at_rest(const semblante_lids* lids, const float pivot[3], const reg rest[3]) {
+  const reg r[3] = {rest[0] - pivot[0], rest[1] - pivot[1], rest[2] - pivot[2]};
+  const reg at_rest = square_root(dot_product(r, r));
+  return choose(less(all_lanes(0.0F), at_rest), at_rest - radius_towards(lids, lids->gaze, r, at_rest),
+                all_lanes(__builtin_nanf("")));
+}
+
+/* The lanes of `where` that may be nearer to the ball than their clearance. */
+LANE_FUNCTION mask near_ball(const semblante_lid_roll* roll, mask where, const reg p[3]) {
+  const reg d[3] = {p[0] - roll->ball_center[0], p[1] - roll->ball_center[1], p[2] - roll->ball_center[2]};
+  return where & less(dot_product(d, d), all_lanes(roll->square_reach));
+}
+
+/* Moves p away from the ball to the vertex's clearance, in the lanes `where` of near_ball. `way`: by which its height
+ * changes. `known`: its clearance_at_rest, or null. */
+LANE_FUNCTION void clear_ball(const semblante_lid_roll* roll, mask where, reg way, const reg rest[3], const reg* known,
+                              reg p[3]) {
   const reg zero = all_lanes(0.0F);
   const semblante_lids* const lids = roll->lids;
   const float wanted = roll->clearance;
-  if (!(wanted > 0.0F)) {
-    return;
-  }
   const reg d[3] = {p[0] - roll->ball_center[0], p[1] - roll->ball_center[1], p[2] - roll->ball_center[2]};
-  const reg square_distance = dot_product(d, d);
-  where &= less(square_distance, all_lanes(roll->square_reach));
-  if (!any(where)) {
-    return;
-  }
-  const reg r[3] = {rest[0] - roll->pivot[0], rest[1] - roll->pivot[1], rest[2] - roll->pivot[2]};
-  const reg at_rest = square_root(dot_product(r, r));
-  const reg distance = square_root(square_distance);
-  where &= less(zero, at_rest) & less(zero, distance);
-  const reg own = at_rest - radius_towards(lids, lids->gaze, r, at_rest);
+  const reg own = known != NULL ? *known : clearance_at_rest(lids, roll->pivot, rest);
+  const reg distance = square_root(dot_product(d, d));
+  where &= less(zero, distance);
   const reg gained = choose(less(way, zero), -way, way) * roll->gain + roll->gained;
   const reg grown = own + within(gained, 0.0F, 1.0F) * (wanted - own);
   /* What lies deeper on the neutral face is the inside of a lid: hidden. */
   const reg clearance =
       choose(at_least(own, all_lanes(wanted)), all_lanes(wanted), choose(less(all_lanes(-wanted), own), grown, own));
   const reg least = radius_towards(lids, roll->pole, d, distance) + clearance;
-  where &= less(distance, least);
-  if (!any(where)) {
-    return;
-  }
+  where &= less(distance, least); /* false at the pivot */
   /* Forwards, so that the height stays that of Eq. 7; at the border of the ball away from its centre. */
   const reg square = least * least - d[0] * d[0] - d[1] * d[1];
   const mask forwards = less(zero, d[2]) & less(0.25F * least * least, square);
@@ -118,37 +123,39 @@ LANE_FUNCTION void clear_ball(const semblante_lid_roll* roll, mask where, reg wa
 }
 
 /* Moves the lanes `where` with the weights `upper` and `lower` of the two points of their lids. `p`: on input the
- * position by Eq. 7, on output with the height that the closures give it, on its circle round the eye, and off the
- * ball. */
-LANE_FUNCTION void roll_lids(const semblante_lid_roll* roll, mask where, reg upper, reg lower, const reg rest[3],
-                             reg p[3]) {
+ * position by Eq. 7, on output with the height that the closures give it, on its circle round the eye. *way: by which
+ * its height changes. The result: the lanes that clear_ball is still to move. */
+LANE_FUNCTION mask roll_lids(const semblante_lid_roll* roll, mask where, reg upper, reg lower, const reg rest[3],
+                             reg p[3], reg* way) {
+  const mask none = less(all_lanes(0.0F), all_lanes(0.0F));
+  *way = all_lanes(0.0F);
   if (!(roll->lids->opening > 0.0F)) {
-    return;
+    return none;
   }
   if (!roll->moves) { /* what is at rest stays bit for bit */
     where &= differs(p[0], rest[0]) | differs(p[1], rest[1]) | differs(p[2], rest[2]);
     if (!any(where)) {
-      return;
+      return none;
     }
   }
   reg q[3];
   for (int i = 0; i < 3; ++i) {
     q[i] = p[i] - (upper * roll->upper[i] + lower * roll->lower[i]);
   }
-  const reg way = roll->lids->opening * (lower * roll->closure[1] - upper * roll->closure[0]);
-  const mask rises = where & differs(way, all_lanes(0.0F));
+  *way = roll->lids->opening * (lower * roll->closure[1] - upper * roll->closure[0]);
+  const mask rises = where & differs(*way, all_lanes(0.0F));
   if (any(rises)) {
     const reg y = q[1] - roll->pivot[1];
     const reg z = q[2] - roll->pivot[2];
     const reg least = (SEMBLANTE_LID_NEAREST * SEMBLANTE_LID_NEAREST) * (y * y + z * z); /* depth, squared */
-    const reg square = y * y + z * z - (y + way) * (y + way);
+    const reg square = y * y + z * z - (y + *way) * (y + *way);
     const reg slid = q[2] + (square_root(choose(less(least, square), square, least)) - z);
     /* What lies behind the axis does not slide. */
     q[2] = choose(rises & less(all_lanes(0.0F), z) & less(least, z * z), slid, q[2]);
   }
-  q[1] += way;
-  clear_ball(roll, where, way, rest, q);
+  q[1] += *way;
   choose_point(where, q, p);
+  return roll->clearance > 0.0F ? near_ball(roll, where, p) : none;
 }
 
 #endif

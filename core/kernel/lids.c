@@ -4,7 +4,8 @@
  * their distance from the eye's axis. */
 #include "core/kernel/lids.h"
 
-#include "core/kernel/export.h"
+#define SEMBLANTE_LANES 1
+#include "core/kernel/lane_motions.h"
 #include "core/tables/generated/mpeg4_tables.h"
 
 /* A lid opens beyond neutral by at most this share of the slit, or until the slit is this wide if that is more
@@ -55,6 +56,10 @@ void semblante_close_lids(int eye, float pitch, semblante_pose* pose) {
   const float both = upper + lower; /* lids meet and do not cross */
   closure[0] = both > 1.0F ? upper / both : upper;
   closure[1] = both > 1.0F ? lower / both : lower;
+}
+
+float semblante_clearance_at_rest(const semblante_lids* lids, const float pivot[3], const float rest[3]) {
+  return clearance_at_rest(lids, pivot, rest);
 }
 
 static int is_zero(const float d[3]) { return d[0] == 0.0F && d[1] == 0.0F && d[2] == 0.0F; }

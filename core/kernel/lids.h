@@ -37,6 +37,9 @@ typedef struct semblante_lid_roll {
   int moves;          /* 0: lids and ball are neutral, so that a vertex at rest stays bit for bit */
 } semblante_lid_roll;
 
+/* The distance of a vertex from the eye's ball on the neutral face, as roll_lids (lane_motions.h) computes it. */
+float semblante_clearance_at_rest(const semblante_lids* lids, const float pivot[3], const float rest[3]);
+
 void semblante_prepare_lid_roll(int eye, const semblante_pose* pose, const semblante_rigid_motion* ball,
                                 semblante_lid_roll* roll);
 

@@ -121,7 +121,7 @@ static int count_keys(const semblante_face* face, uint32_t size, uint32_t first,
 
 /* The offsets of the arrays of a prepared face from its header, and its total size. */
 typedef struct layout {
-  size_t runs, first, rest, weights, points, lids, rigid, turn, end;
+  size_t runs, first, rest, weights, points, lids, rigid, turn, clearance, end;
   uint32_t run_count;
 } layout;
 
@@ -136,6 +136,7 @@ static layout lay_out(const semblante_face* face, uint32_t size) {
   layout l = {0};
   const uint32_t groups = group_count_of(face, size);
   size_t united = 0;
+  size_t with_lids = 0;
   for (uint32_t first = 0; first < groups; first = window_end(first, groups)) {
     uint16_t by_key[KEYS];
     if (!count_keys(face, size, first, window_end(first, groups), by_key)) {
@@ -144,6 +145,7 @@ static layout lay_out(const semblante_face* face, uint32_t size) {
     for (uint32_t key = 0; key < KEYS; ++key) {
       l.run_count += by_key[key] != 0;
       united += (size_t)by_key[key] * (key % (SEMBLANTE_FP_COUNT + 1));
+      with_lids += semblante_has_lids(key / (SEMBLANTE_FP_COUNT + 1)) ? by_key[key] : 0U;
     }
   }
   place(&l.end, sizeof(semblante_prepared_face));
@@ -155,6 +157,7 @@ static layout lay_out(const semblante_face* face, uint32_t size) {
   l.lids = place(&l.end, (size_t)groups * 4);
   l.rigid = place(&l.end, (size_t)groups * size);
   l.turn = place(&l.end, (size_t)groups * size);
+  l.clearance = place(&l.end, with_lids * size * sizeof(float));
   return l;
 }
 
@@ -215,7 +218,19 @@ static void write_lids(const group_facts* facts, uint8_t lids[4]) {
   }
 }
 
-const semblante_prepared_face* semblante_prepare_by(uint32_t group_size, const semblante_face* face, void* memory) {
+static void write_clearance(const semblante_face* face, const semblante_rig* rig, uint32_t size, uint32_t group,
+                            float* clearance) {
+  for (uint32_t lane = 0; lane < size; ++lane) {
+    const uint32_t v = group * size + lane;
+    const int eye = v < face->vertex_count ? semblante_lids_of(rigid_of(face, v)) : -1;
+    clearance[lane] = eye < 0 || rig == NULL ? 0.0F
+                                             : semblante_clearance_at_rest(&rig->lids[eye], rig->eye_pivot[eye],
+                                                                           &face->rest[(size_t)v * 3]);
+  }
+}
+
+const semblante_prepared_face* semblante_prepare_by(uint32_t group_size, const semblante_face* face,
+                                                    const semblante_rig* rig, void* memory) {
   const uint32_t size = group_size;
   char* const base = memory;
   const uint32_t groups = group_count_of(face, size);
@@ -228,9 +243,27 @@ const semblante_prepared_face* semblante_prepare_by(uint32_t group_size, const s
   uint8_t* lids = (uint8_t*)(base + l.lids);
   uint8_t* const rigid = (uint8_t*)(base + l.rigid);
   uint8_t* const turn = (uint8_t*)(base + l.turn);
-  const semblante_prepared_face prepared = {
-      face->vertex_count, size, groups, l.run_count, run, first_vertex, rest, weights, points, lids, rigid, turn};
-  *(semblante_prepared_face*)memory = prepared;
+  float* clearance = (float*)(base + l.clearance);
+  semblante_prepared_face* const prepared = memory;
+  *prepared = (semblante_prepared_face){.vertex_count = face->vertex_count,
+                                        .group_size = size,
+                                        .group_count = groups,
+                                        .run_count = l.run_count,
+                                        .runs = run,
+                                        .first = first_vertex,
+                                        .rest = rest,
+                                        .weights = weights,
+                                        .points = points,
+                                        .lids = lids,
+                                        .rigid = rigid,
+                                        .turn = turn,
+                                        .clearance = clearance};
+  for (int eye = 0; rig != NULL && eye < 2; ++eye) {
+    prepared->lids_of_rig[eye] = rig->lids[eye];
+    for (int i = 0; i < 3; ++i) {
+      prepared->eye_pivot[eye][i] = rig->eye_pivot[eye][i];
+    }
+  }
 
   for (uint32_t first = 0; first < groups; first = window_end(first, groups)) {
     const uint32_t end = window_end(first, groups);
@@ -257,6 +290,10 @@ const semblante_prepared_face* semblante_prepare_by(uint32_t group_size, const s
       write_rest(face, size, group, rest);
       write_weights(face, size, group, &facts, weights);
       write_lids(&facts, lids);
+      if (semblante_has_lids(facts.part)) {
+        write_clearance(face, rig, size, group, clearance);
+        clearance += size;
+      }
       for (uint32_t k = 0; k < facts.point_count; ++k) {
         points[k] = facts.points[k];
       }
@@ -270,10 +307,16 @@ const semblante_prepared_face* semblante_prepare_by(uint32_t group_size, const s
     rigid[v] = v < face->vertex_count ? rigid_of(face, v) : SEMBLANTE_RIGID_NONE;
     turn[v] = v < face->vertex_count ? turn_of(face, v) : SEMBLANTE_TURN_FULL;
   }
-  return (const semblante_prepared_face*)memory;
+  return prepared;
 }
 
 SEMBLANTE_EXPORT(semblante_prepare)
 const semblante_prepared_face* semblante_prepare(const semblante_face* face, void* memory) {
-  return semblante_prepare_by(best_size(), face, memory);
+  return semblante_prepare_for(face, NULL, memory);
+}
+
+SEMBLANTE_EXPORT(semblante_prepare_for)
+const semblante_prepared_face* semblante_prepare_for(const semblante_face* face, const semblante_rig* rig,
+                                                     void* memory) {
+  return semblante_prepare_by(best_size(), face, rig, memory);
 }

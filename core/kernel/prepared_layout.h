@@ -46,7 +46,18 @@ struct semblante_prepared_face {
   const uint8_t* lids;   /* #G by 4: where the points of the lids are among the group's points; NO_POINT: nowhere */
   const uint8_t* rigid;  /* #V padded to whole groups, by vertex: SEMBLANTE_RIGID_* */
   const uint8_t* turn;   /* likewise: 255ths of the head's rotation */
+  /* The eyes that `clearance` was computed for, from the rig; all zero without one. */
+  semblante_lids lids_of_rig[2];
+  float eye_pivot[2][3];
+  /* By #L, for each group of a part with lids (semblante_has_lids): semblante_clearance_at_rest of the vertices of
+   * lids. */
+  const float* clearance;
 };
+
+/* Whether vertices of lids may be in a group. */
+static inline int semblante_has_lids(uint32_t part) {
+  return part == SEMBLANTE_GROUP_LEFT_LIDS || part == SEMBLANTE_GROUP_RIGHT_LIDS || part == SEMBLANTE_GROUP_MIXED;
+}
 
 /* One pose, prepared for all groups. */
 typedef struct semblante_group_pose {
@@ -58,6 +69,7 @@ typedef struct semblante_group_pose {
   int eye_moves[2]; /* left, right; a motion that is zero is skipped, which gives the same bits */
   int iris_moves[2];
   int tongue_moves;
+  int knows_clearance[2]; /* left, right: the face's clearances are those of this pose's eye */
   /* For semblante_deform_changed; null: everything is computed. */
   const uint8_t* changed_points; /* 84: 1 where the displacement changed */
   int head_changed;
@@ -78,9 +90,10 @@ typedef struct semblante_deform_variant {
 /* The *count variants that this machine supports, the fastest last. Faces are prepared for that. */
 const semblante_deform_variant* semblante_deform_variants(uint32_t* count);
 
-/* semblante_prepared_size and semblante_prepare for the variants of one size of groups, 8 or 16. */
+/* semblante_prepared_size and semblante_prepare_for for the variants of one size of groups, 8 or 16. */
 size_t semblante_prepared_size_by(uint32_t group_size, const semblante_face* face);
-const semblante_prepared_face* semblante_prepare_by(uint32_t group_size, const semblante_face* face, void* memory);
+const semblante_prepared_face* semblante_prepare_by(uint32_t group_size, const semblante_face* face,
+                                                    const semblante_rig* rig, void* memory);
 
 /* semblante_deform_prepared by the given variant, of a face that is prepared for its size of groups. */
 void semblante_deform_by(const semblante_deform_variant* variant, const semblante_prepared_face* face,

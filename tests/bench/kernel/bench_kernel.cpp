@@ -8,10 +8,10 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <functional>
 #include <limits>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,37 +20,24 @@
 
 #include "tests/bench/kernel/baselines.h"
 #include "tests/bench/kernel/bench_head.h"
-
-extern "C" {
-#include "core/kernel/prepared_layout.h"
-}
+#include "tests/support/prepared_face.h"
 
 namespace semblante::bench {
 namespace {
 
+using testing::Prepared;
+
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
-struct Free {
-  void operator()(void* memory) const { std::free(memory); }
-};
-
-struct Prepared {
-  std::unique_ptr<void, Free> memory;
-  const semblante_prepared_face* face;
-  explicit Prepared(const semblante_face& from, std::uint32_t group_size)
-      : memory(std::aligned_alloc(64, semblante_prepared_size_by(group_size, &from))),
-        face(semblante_prepare_by(group_size, &from, memory.get())) {}
-
-  /// Bytes that a frame reads of it.
-  [[nodiscard]] std::size_t read_bytes() const {
-    std::size_t points = 0;
-    for (std::uint32_t r = 0; r < face->run_count; ++r) {
-      points += std::size_t{face->runs[r].group_count} * face->runs[r].point_count;
-    }
-    return points * (face->group_size * sizeof(float) + 1) + face->run_count * sizeof(semblante_run) +
-           face->group_count * (face->group_size * 3 * sizeof(float) + sizeof(std::uint32_t));
+/// Bytes that a frame reads of a prepared face.
+std::size_t read_bytes(const semblante_prepared_face& face) {
+  std::size_t points = 0;
+  for (std::uint32_t r = 0; r < face.run_count; ++r) {
+    points += std::size_t{face.runs[r].group_count} * face.runs[r].point_count;
   }
-};
+  return points * (face.group_size * sizeof(float) + 1) + face.run_count * sizeof(semblante_run) +
+         face.group_count * (face.group_size * 3 * sizeof(float) + sizeof(std::uint32_t));
+}
 
 struct Way {
   std::string name;
@@ -100,10 +87,11 @@ void check_scalar(const BenchHead& head, const std::vector<float>& scalar, const
 
 void print_row(const BenchHead& head, const char* method, double seconds) {
   const semblante_face face = head.face();
-  const Prepared eights(face, 8);
+  const semblante_rig rig = head.rig.view();
+  const Prepared eights(face, 8, &rig);
+  const Prepared widest(face, &rig);
   std::uint32_t count = 0;
   const semblante_deform_variant* const variants = semblante_deform_variants(&count);
-  const Prepared widest(face, variants[count - 1].group_size);
   const semblante_pose pose = talking_pose(head, true);
   const semblante_pose still = talking_pose(head, false);
   const semblante_pose neutral = [] {
@@ -124,7 +112,7 @@ void print_row(const BenchHead& head, const char* method, double seconds) {
   volatile std::uint64_t sink = 0;
   std::vector<Way> ways;
   ways.push_back({"limit", [&] {
-                    sink = sink + stream(static_cast<const std::byte*>(eights.memory.get()), eights.read_bytes(),
+                    sink = sink + stream(static_cast<const std::byte*>(eights.memory.get()), read_bytes(*eights.face),
                                          reinterpret_cast<std::byte*>(out.data()), written);
                   }});
   ways.push_back({"scalar", [&] { scalar_deform(face, pose, out.data()); }});
@@ -149,7 +137,7 @@ void print_row(const BenchHead& head, const char* method, double seconds) {
 
   std::printf("%-12s %-6s %7u %6.2f %5.1f | %6.1f |", head.name.c_str(), method, head.vertex_count(),
               static_cast<double>(head.points.size()) / head.vertex_count(),
-              static_cast<double>(eights.read_bytes()) / head.vertex_count(), 1e6 * ways[0].best);
+              static_cast<double>(read_bytes(*eights.face)) / head.vertex_count(), 1e6 * ways[0].best);
   for (std::size_t w = 1; w < ways.size(); ++w)
     std::printf(" %s %.2f", ways[w].name.c_str(), ways[w].best / ways[0].best);
   std::printf("\n");
@@ -188,9 +176,10 @@ int time_file(const char* name) {
   if (!in) return 1;
   semblante_pose pose;
   std::copy(pose_numbers.begin(), pose_numbers.end(), reinterpret_cast<float*>(&pose));
-  std::uint32_t count = 0;
-  const semblante_deform_variant* const variants = semblante_deform_variants(&count);
-  const Prepared prepared(head.face(), variants[count - 1].group_size);
+  semblante_rig rig{};  // only the eyes count here
+  std::memcpy(rig.eye_pivot, pose.eye_pivot, sizeof rig.eye_pivot);
+  std::memcpy(rig.lids, pose.lids, sizeof rig.lids);
+  const Prepared prepared(head.face(), &rig);
   std::vector<float> out(head.rest.size());
   std::vector<Way> ways{{"native", [&] { semblante_deform_prepared(prepared.face, &pose, out.data()); }}};
   race(ways, 0.2);

@@ -103,7 +103,13 @@ function inModule(module, head) {
     put(head.rigid), put(head.turn)));
   const pose = put(head.pose);
   const positions = exports.semblante_alloc(head.vertices * 12);
-  const prepared = exports.semblante_prepare(face, exports.semblante_alloc(exports.semblante_prepared_size(face)));
+  // Of the rig, only the eyes count here; they are in the pose too (offsets: core/kernel/README.md).
+  const rig = new Uint8Array(364);
+  const inPose = new Uint8Array(head.pose.buffer, head.pose.byteOffset, head.pose.byteLength);
+  rig.set(inPose.subarray(1080, 1104), 28);
+  rig.set(inPose.subarray(1236, 1428), 172);
+  const memory = exports.semblante_alloc(exports.semblante_prepared_size(face));
+  const prepared = exports.semblante_prepare_for(face, put(rig), memory);
   return {
     deform: () => exports.semblante_deform_prepared(prepared, pose, positions),
     positions: () => new Float32Array(exports.memory.buffer, positions, head.vertices * 3),

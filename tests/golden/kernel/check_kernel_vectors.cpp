@@ -3,20 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <fstream>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "core/kernel/semblante_normals.h"
-
-extern "C" {
-#include "core/kernel/prepared_layout.h"
-}
+#include "tests/support/prepared_face.h"
 
 namespace {
 
@@ -153,13 +148,12 @@ struct Checker {
     std::uint32_t count = 0;
     const semblante_deform_variant* const variants = semblante_deform_variants(&count);
     for (std::uint32_t v = 0; v < count; ++v) {
-      const std::uint32_t size = variants[v].group_size;
-      std::unique_ptr<void, void (*)(void*)> memory(std::aligned_alloc(64, semblante_prepared_size_by(size, &face)),
-                                                    std::free);
-      const semblante_prepared_face* const prepared = semblante_prepare_by(size, &face, memory.get());
-      std::vector<float> found(rest.size());
-      semblante_deform_by(&variants[v], prepared, &pose, found.data());
-      same_bits = same_bits && std::memcmp(found.data(), positions.data(), found.size() * sizeof(float)) == 0;
+      for (const bool has_rig : {false, true}) {
+        const semblante::testing::Prepared prepared(face, variants[v].group_size, has_rig ? &rig : nullptr);
+        std::vector<float> found(rest.size());
+        semblante_deform_by(&variants[v], prepared.face, &pose, found.data());
+        same_bits = same_bits && std::memcmp(found.data(), positions.data(), found.size() * sizeof(float)) == 0;
+      }
     }
     const auto expected = numbers<double>(golden["positions"]);
     for (std::size_t i = 0; i < expected.size(); ++i) {

@@ -14,7 +14,7 @@ assert.deepEqual(
   WebAssembly.Module.exports(module).map((e) => e.name).sort(),
   ["memory", "semblante_alloc", "semblante_deform", "semblante_deform_changed", "semblante_deform_prepared",
     "semblante_ease", "semblante_evaluate", "semblante_free_all", "semblante_interpolate", "semblante_join_scratch",
-    "semblante_join_seams", "semblante_normals", "semblante_prepare", "semblante_prepared_size",
+    "semblante_join_seams", "semblante_normals", "semblante_prepare", "semblante_prepare_for", "semblante_prepared_size",
     "semblante_rest_normals", "semblante_sincos", "semblante_turn_normals"],
   "the export list is the interface");
 assert.ok(bytes.length < 40960, `the module is small (${bytes.length} bytes)`);

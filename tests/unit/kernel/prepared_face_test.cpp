@@ -1,4 +1,6 @@
 // A prepared face gives what semblante_deform gives, bit for bit, by every kind of register.
+#include "tests/support/prepared_face.h"
+
 #include <cstring>
 #include <random>
 #include <vector>
@@ -6,10 +8,6 @@
 #include <gtest/gtest.h>
 
 #include "tests/unit/kernel/random_face.h"
-
-extern "C" {
-#include "core/kernel/prepared_layout.h"
-}
 
 namespace {
 
@@ -46,12 +44,54 @@ TEST(KernelPrepared_Variants, GiveTheBitsOfTheRows) {
   }
 }
 
+/// The rig of whose eyes a pose is.
+semblante_rig rig_of(const semblante_pose& pose) {
+  semblante_rig rig{};
+  std::memcpy(rig.eye_pivot, pose.eye_pivot, sizeof(rig.eye_pivot));
+  std::memcpy(rig.lids, pose.lids, sizeof(rig.lids));
+  return rig;
+}
+
+TEST(KernelPrepared_Rig, GivesTheBitsOfTheRows_AlsoOfOtherEyes) {
+  const RandomFace face(5003, 5003);
+  std::uint32_t count = 0;
+  const semblante_deform_variant* const variants = semblante_deform_variants(&count);
+  const auto pose_of = [&face](unsigned kind) {
+    semblante_pose pose = face.pose(kind);
+    for (semblante_lids& lids : pose.lids) {  // no spheres, so that the gaze counts
+      for (unsigned k = 0; k < SEMBLANTE_BALL_PLACES; ++k) lids.ball[k] = 0.5F - 0.01F * static_cast<float>(k);
+    }
+    return pose;
+  };
+  const semblante_rig rig = rig_of(pose_of(RandomFace::neutral));
+  for (unsigned kind = 0; kind < RandomFace::pose_kinds; ++kind) {
+    semblante_pose other_ball = pose_of(kind);
+    for (float& radius : other_ball.lids[1].ball) radius = 0.5F;
+    semblante_pose other_gaze = pose_of(kind);
+    other_gaze.lids[0].gaze[1] = 0.6F;
+    other_gaze.lids[0].gaze[2] = 0.8F;
+    semblante_pose other_pivot = pose_of(kind);
+    other_pivot.eye_pivot[0][2] = 0.25F;
+    for (const semblante_pose& pose : {pose_of(kind), other_ball, other_gaze, other_pivot}) {
+      std::vector<float> rows(face.view().vertex_count * 3U);
+      semblante_deform(&face.view(), &pose, rows.data());
+      for (std::uint32_t v = 0; v < count; ++v) {
+        const Prepared prepared(face.view(), variants[v].group_size, &rig);
+        std::vector<float> found(rows.size());
+        semblante_deform_by(&variants[v], prepared.face, &pose, found.data());
+        EXPECT_TRUE(same_bits(found, rows)) << variants[v].name << ", pose " << kind;
+      }
+    }
+  }
+}
+
 TEST(KernelPrepared_Changed, BringsAnyPoseToAnyOther) {
   const RandomFace face(3001, 5);
   std::uint32_t count = 0;
   const semblante_deform_variant* const variants = semblante_deform_variants(&count);
   for (std::uint32_t v = 0; v < count; ++v) {
-    const Prepared prepared(face.view(), variants[v].group_size);  // of each size, the fastest variant is tested
+    const semblante_rig rig = rig_of(face.pose(RandomFace::neutral));
+    const Prepared prepared(face.view(), variants[v].group_size, &rig);  // of each size, the fastest variant is tested
     for (unsigned from = 0; from < RandomFace::pose_kinds; ++from) {
       for (unsigned to = 0; to < RandomFace::pose_kinds; ++to) {
         const semblante_pose before = face.pose(from);

@@ -2,15 +2,11 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdlib>
-#include <memory>
 #include <random>
 #include <utility>
 #include <vector>
 
-extern "C" {
-#include "core/kernel/prepared_layout.h"
-}
+#include "core/kernel/semblante_kernel.h"
 
 namespace semblante::testing {
 
@@ -128,22 +124,6 @@ class RandomFace {
   std::vector<std::uint32_t> offsets_{0};
   std::vector<std::uint8_t> points_, rigid_, turn_;
   semblante_face face_{};
-};
-
-/// A prepared face and its memory.
-struct Prepared {
-  struct Free {
-    void operator()(void* memory) const { std::free(memory); }
-  };
-  std::unique_ptr<void, Free> memory;
-  const semblante_prepared_face* face;
-
-  explicit Prepared(const semblante_face& from)
-      : memory(std::aligned_alloc(64, semblante_prepared_size(&from))), face(semblante_prepare(&from, memory.get())) {}
-
-  Prepared(const semblante_face& from, std::uint32_t group_size)
-      : memory(std::aligned_alloc(64, semblante_prepared_size_by(group_size, &from))),
-        face(semblante_prepare_by(group_size, &from, memory.get())) {}
 };
 
 }  // namespace semblante::testing
