@@ -88,14 +88,16 @@ add_custom_target(fuzz_targets)
 # lasts so long.
 set(SEMBLANTE_TEST_TIMEOUT 3600)
 
-# semblante_test(NAME SOURCES ... DEPENDS ... [THREADS] [PROCESSES]): a GoogleTest program whose cases
-# ctest runs one by one. THREADS: worth a run under ThreadSanitizer. PROCESSES: starts our programs, so it belongs to the
-# normal build and not to AddressSanitizer's unit runs.
+# semblante_test(NAME SOURCES ... DEPENDS ... [QUICK] [THREADS] [PROCESSES]): a GoogleTest program whose cases
+# ctest runs one by one. A case runs once, so compiling it costs more than it does: its own code is hardly optimized, and
+# not at all if it is QUICK anyway. THREADS: worth a run under ThreadSanitizer. PROCESSES: starts our programs,
+# so it belongs to the normal build and not to AddressSanitizer's unit runs. Few programs of many files compile fastest:
+# GoogleTest's and the other headers are most of a small file, and files of one program share them.
 function(semblante_test name)
-  cmake_parse_arguments(ARG "THREADS;PROCESSES" "" "SOURCES;DEPENDS" ${ARGN})
+  cmake_parse_arguments(ARG "QUICK;THREADS;PROCESSES" "" "SOURCES;DEPENDS" ${ARGN})
   add_executable(test_${name} ${ARG_SOURCES})
   target_link_libraries(test_${name} PRIVATE ${ARG_DEPENDS} GTest::gtest_main GTest::gmock semblante_flags)
-  target_compile_options(test_${name} PRIVATE $<$<CONFIG:Release>:-O1>)  # a case runs once: compiling it costs more
+  target_compile_options(test_${name} PRIVATE $<$<CONFIG:Release>:$<IF:$<BOOL:${ARG_QUICK}>,-O0,-O1>>)
   target_compile_definitions(test_${name} PRIVATE SEMBLANTE_SOURCE_DIR="${PROJECT_SOURCE_DIR}" SEMBLANTE_BINARY_DIR="${PROJECT_BINARY_DIR}")
   set(labels "")
   if(ARG_PROCESSES)

@@ -38,5 +38,7 @@ class Workspace {
 
 std::string read_text(const std::filesystem::path& path);
 std::size_t line_count(const std::string& text);
+/// Without its end of line.
+std::string first_line(const std::string& text);
 
 }  // namespace semblante::test

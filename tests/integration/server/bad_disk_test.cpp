@@ -23,9 +23,6 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-const Fields json_type = {{"Content-Type", "application/json"}};
-const Fields obj_type = {{"Content-Type", "model/obj"}};
-
 class BadDisk : public ::testing::Test {
  protected:
   ~BadDisk() override { ::umount2(data().c_str(), MNT_DETACH); }

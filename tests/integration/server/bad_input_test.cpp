@@ -17,8 +17,6 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-const Fields json_type = {{"Content-Type", "application/json"}};
-
 class BadInput : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {

@@ -16,7 +16,6 @@ using nlohmann::json;
 using ::testing::HasSubstr;
 
 const Fields fap_type = {{"Content-Type", "text/plain"}};
-const Fields document_type = {{"Content-Type", "application/json"}};
 
 /// A performance of one cue on FAP 3, the jaw.
 json jaw_performance() {
@@ -54,7 +53,7 @@ class ClipRoute : public ::testing::Test {
   }
 
   /// Asks for a clip on the suite's model, which the first call parametrizes with a smaller level of detail.
-  static Reply clip(const std::string& body, const Fields& type = document_type, const std::string& query = "") {
+  static Reply clip(const std::string& body, const Fields& type = json_type, const std::string& query = "") {
     static const bool ready = parametrize();
     EXPECT_TRUE(ready);
     return request(server_->port(), "POST", "/v1/models/" + *model_ + "/clip" + query, body, type);
@@ -62,9 +61,9 @@ class ClipRoute : public ::testing::Test {
 
   static bool parametrize() {
     const auto path = "/v1/models/" + *model_;
-    request(server_->port(), "PUT", path + "/feature-points", grid_points(), document_type);
+    request(server_->port(), "PUT", path + "/feature-points", grid_points(), json_type);
     const auto job =
-        json_of(request(server_->port(), "POST", path + "/parametrizations", R"({"lods":[400]})", document_type));
+        json_of(request(server_->port(), "POST", path + "/parametrizations", R"({"lods":[400]})", json_type));
     return wait_for_job(server_->port(), job.value("id", "")).value("state", "") == "done";
   }
 
@@ -91,21 +90,21 @@ TEST_F(ClipRoute, Performance_BecomesOneAnimation) {
 
 TEST_F(ClipRoute, Rate_IsThatOfTheFaces) {
   const auto keys = [](const std::string& query) {
-    const auto gltf = json_of_glb(clip(jaw_performance().dump(), document_type, query).body);
+    const auto gltf = json_of_glb(clip(jaw_performance().dump(), json_type, query).body);
     return gltf["asset"]["extras"]["semblante"].value("keys_unthinned", 0);
   };
   const int usual = keys("");
   ASSERT_GT(usual, 0);
   EXPECT_EQ(keys("?rate=25"), usual) << "the default";
   EXPECT_GT(keys("?rate=50"), usual * 3 / 2);
-  expect_refused(clip(jaw_performance().dump(), document_type, "?rate=0"), 400, "?rate");
-  expect_refused(clip(jaw_performance().dump(), document_type, "?rate=1001"), 400, "?rate");
+  expect_refused(clip(jaw_performance().dump(), json_type, "?rate=0"), 400, "?rate");
+  expect_refused(clip(jaw_performance().dump(), json_type, "?rate=1001"), 400, "?rate");
 }
 
 TEST_F(ClipRoute, LevelOfDetail_HasFewerVertices) {
   const auto vertices = [](const std::string& query) {
     std::size_t most = 0;
-    const auto gltf = json_of_glb(clip(jaw_performance().dump(), document_type, query).body);
+    const auto gltf = json_of_glb(clip(jaw_performance().dump(), json_type, query).body);
     for (const auto& accessor : gltf["accessors"])
       if (accessor["type"] == "VEC3") most = std::max(most, accessor["count"].get<std::size_t>());
     return most;
@@ -114,7 +113,7 @@ TEST_F(ClipRoute, LevelOfDetail_HasFewerVertices) {
   EXPECT_GE(full, 31U * 31U);
   EXPECT_LE(vertices("?lod=1"), 400U);
   EXPECT_EQ(vertices("?max_vertices=400"), vertices("?lod=1"));
-  expect_refused(clip(jaw_performance().dump(), document_type, "?lod=2"), 400, "?lod");
+  expect_refused(clip(jaw_performance().dump(), json_type, "?lod=2"), 400, "?lod");
 }
 
 TEST_F(ClipRoute, FapFile_HasItsOwnRate) {
@@ -143,15 +142,15 @@ TEST_F(ClipRoute, BadBodies_AreNamed) {
   body = jaw_performance();
   body["duration"] = 3'600'000;
   expect_refused(clip(body.dump()), 413, "/duration");  // 90,001 faces
-  EXPECT_EQ(clip(body.dump(), document_type, "?rate=1").status, 200);
+  EXPECT_EQ(clip(body.dump(), json_type, "?rate=1").status, 200);
   expect_refused(clip(jaw_performance().dump(), {{"Content-Type", "text/csv"}}), 415, "");
 }
 
 TEST_F(ClipRoute, ModelWithoutAFace_IsRefused) {
   const auto body = jaw_performance().dump();
-  EXPECT_EQ(request(server_->port(), "POST", "/v1/models/absent/clip", body, document_type).status, 404);
+  EXPECT_EQ(request(server_->port(), "POST", "/v1/models/absent/clip", body, json_type).status, 404);
   const auto unready = import_grid(server_->port());
-  const auto reply = request(server_->port(), "POST", "/v1/models/" + unready + "/clip", body, document_type);
+  const auto reply = request(server_->port(), "POST", "/v1/models/" + unready + "/clip", body, json_type);
   EXPECT_EQ(reply.status, 409);
   EXPECT_THAT(reply.body, HasSubstr("not parametrized"));
 }

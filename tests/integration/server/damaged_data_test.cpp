@@ -17,9 +17,6 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-const Fields json_type = {{"Content-Type", "application/json"}};
-const Fields obj_type = {{"Content-Type", "model/obj"}};
-
 void flip_a_byte(const fs::path& file) {
   std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
   stream.seekg(static_cast<std::streamoff>(fs::file_size(file) / 2));

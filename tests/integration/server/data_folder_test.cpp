@@ -26,8 +26,6 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 using Served = std::map<std::string, std::string>;  ///< bodies by path
 
-const Fields json_type = {{"Content-Type", "application/json"}};
-
 double metric(int port, const std::string& name) {
   return read_prometheus_text(request(port, "GET", "/metrics").body).value(name);
 }

@@ -18,8 +18,6 @@ using namespace std::chrono_literals;
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-const Fields as_json = {{"Content-Type", "application/json"}};
-
 /// What a subscriber got until its connection was closed.
 struct Received {
   std::uint64_t frames = 0, next = 0;  ///< number of frames; sequence after the last one
@@ -48,7 +46,7 @@ Received read_all(WebSocket& socket, std::chrono::milliseconds pause) {
 TEST(Drain, ClosedTerminal_StopsAsSigtermDoes) {
   const TemporaryFolder data;
   ServerProcess server(data.path());
-  ASSERT_EQ(request(server.port(), "POST", "/v1/streams", R"({"name":"talk"})", as_json).status, 201);
+  ASSERT_EQ(request(server.port(), "POST", "/v1/streams", R"({"name":"talk"})", json_type).status, 201);
   WebSocket socket(server.port(), "/v1/streams/talk", "semblante.v1.json");
   socket.send_text(R"({"type":"hello","version":1,"role":"subscribe"})");
   ASSERT_TRUE(socket.receive()) << "its header";
@@ -65,14 +63,14 @@ TEST(Drain, UnderLoad_NoSubscriberMissesWhatWasAccepted_AndTheRecordingIsWhole) 
   {
     ServerProcess server(data.path());
     const int port = server.port();
-    ASSERT_EQ(request(port, "POST", "/v1/streams", R"({"name":"talk","batch_interval":100})", as_json).status, 201);
+    ASSERT_EQ(request(port, "POST", "/v1/streams", R"({"name":"talk","batch_interval":100})", json_type).status, 201);
     std::vector<std::unique_ptr<WebSocket>> sockets;
     for (int i = 0; i < 40; ++i) {
       sockets.push_back(std::make_unique<WebSocket>(port, "/v1/streams/talk", "semblante.v1.json"));
       sockets.back()->send_text(R"({"type":"hello","version":1,"role":"subscribe"})");
       ASSERT_TRUE(sockets.back()->receive()) << "its header";
     }
-    recording = json_of(request(port, "POST", "/v1/streams/talk/recordings", "{}", as_json))["id"];
+    recording = json_of(request(port, "POST", "/v1/streams/talk/recordings", "{}", json_type))["id"];
     std::vector<Received> received(sockets.size());
     std::vector<std::thread> readers;
     for (std::size_t i = 0; i < sockets.size(); ++i)
@@ -82,7 +80,7 @@ TEST(Drain, UnderLoad_NoSubscriberMissesWhatWasAccepted_AndTheRecordingIsWhole) 
       for (int i = 0; !refused; ++i) {
         const auto body = json{{"frames", {{{"faps", {{"3", i % 100}}}}}}}.dump();
         try {
-          const auto reply = request(port, "POST", "/v1/streams/talk/frames", body, as_json);
+          const auto reply = request(port, "POST", "/v1/streams/talk/frames", body, json_type);
           if (reply.status == 202)
             accepted = json_of(reply)["sequence"].get<std::uint64_t>();
           else
@@ -118,7 +116,7 @@ TEST(Drain, WhatHasBegun_IsFinished_AndNothingNewBegins) {
   {
     ServerProcess server(data.path(), {"--drain-seconds", "60"});
     const int port = server.port();
-    ASSERT_EQ(request(port, "POST", "/v1/streams", R"({"name":"talk"})", as_json).status, 201);
+    ASSERT_EQ(request(port, "POST", "/v1/streams", R"({"name":"talk"})", json_type).status, 201);
     // An upload that has begun, and a connection that is kept open.
     const auto model = grid_obj(9);
     OpenRequest upload(port,
@@ -173,7 +171,7 @@ TEST(Drain, SecondSignal_EndsItAtOnce_AndLosesNothing) {
   const TemporaryFolder data;
   {
     ServerProcess server(data.path(), {"--drain-seconds", "3600"});
-    ASSERT_EQ(request(server.port(), "POST", "/v1/streams", R"({"name":"talk"})", as_json).status, 201);
+    ASSERT_EQ(request(server.port(), "POST", "/v1/streams", R"({"name":"talk"})", json_type).status, 201);
     const OpenRequest upload(
         server.port(), "POST /v1/models?filename=a.obj HTTP/1.1\r\nHost: localhost\r\nContent-Length: 9\r\n\r\nv");
     ASSERT_TRUE(semblante::testing::eventually([&] { return !std::filesystem::is_empty(data.path() / "tmp"); }));

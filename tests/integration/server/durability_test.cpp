@@ -14,8 +14,6 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-const Fields json_type = {{"Content-Type", "application/json"}};
-
 TEST(Durability, Acknowledged_SurvivesKill) {
   const TemporaryFolder folder;
   std::string model;

@@ -13,8 +13,6 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-const Fields json_type = {{"Content-Type", "application/json"}};
-
 /// On the 9 by 9 grid of grid_obj: MW0 4 (8.3 to 8.4), MNS0 2 (9.15 to 2.2).
 constexpr const char* face_points =
     R"({"points":{"2.1":{"vertex":13},"2.2":{"vertex":40},"8.3":{"vertex":33},"8.4":{"vertex":29},"9.15":{"vertex":58}}})";
@@ -39,7 +37,6 @@ std::string form(const std::vector<Part>& parts) {
   }
   return body + "--border--\r\n";
 }
-const Fields form_type = {{"Content-Type", "multipart/form-data; boundary=border"}};
 
 std::string base64(std::string_view bytes) {
   static constexpr std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";

@@ -21,9 +21,6 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-const Fields json_type = {{"Content-Type", "application/json"}};
-const Fields obj_type = {{"Content-Type", "model/obj"}};
-
 class FullDiskTest : public ::testing::Test {
  protected:
   void start(std::vector<std::string> options = {}) {

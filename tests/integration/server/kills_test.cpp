@@ -30,9 +30,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-const Fields json_type = {{"Content-Type", "application/json"}};
-const Fields obj_type = {{"Content-Type", "model/obj"}};
-
 unsigned long number_from(const char* variable, unsigned long otherwise) {
   const char* text = std::getenv(variable);
   return text != nullptr && *text != '\0' ? std::strtoul(text, nullptr, 10) : otherwise;
@@ -169,7 +166,6 @@ class Kills : public ::testing::Test {
       return "--border\r\nContent-Disposition: form-data; name=\"" + name + "\"" +
              (is_file ? "; filename=\"" + name + ".obj\"" : "") + "\r\n\r\n" + content + "\r\n";
     };
-    const Fields form_type = {{"Content-Type", "multipart/form-data; boundary=border"}};
     while (!stop_) {
       // Every upload has files of its own.
       const auto remark = "# " + std::to_string(++extraction_) + "\n";

@@ -57,7 +57,6 @@ TEST_F(Levels, PointBetweenVertices_IsKeptAsItsPosition_AndHasAVertexInEachPacka
   const auto path = "/v1/models/" + model + "/feature-points";
   json body = json::parse(grid_points());
   body["points"]["2.2"] = {{"position", {0.25, 4.5, 0.0}}};
-  const Fields json_type = {{"Content-Type", "application/json"}};
   ASSERT_EQ(request(port(), "PUT", path, body.dump(), json_type).status, 200);
   const json kept = json_of(request(port(), "GET", path))["points"]["2.2"];
   EXPECT_TRUE(kept["vertex"].is_null()) << kept;

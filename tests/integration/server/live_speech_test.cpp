@@ -22,7 +22,6 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-const Fields json_type = {{"Content-Type", "application/json"}};
 const std::string first = "A sentence that is long enough to be a part. ";
 
 /// What a subscriber with sound gets.

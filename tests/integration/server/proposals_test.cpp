@@ -16,8 +16,6 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-const Fields json_type = {{"Content-Type", "application/json"}};
-
 class ProposalRoutes : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {

@@ -13,8 +13,6 @@ namespace {
 using nlohmann::json;
 using ::testing::StartsWith;
 
-const Fields as_json = {{"Content-Type", "application/json"}};
-
 Message next(WebSocket& socket) {
   const auto text = socket.receive();
   auto message = decode_json(text.value_or(std::string()));
@@ -26,12 +24,12 @@ TEST(PublishedSound, IsHeardByListenersAndKeptByARecording) {
   const TemporaryFolder folder;
   const ServerProcess server(folder.path() / "data", {});
   const int port = server.port();
-  request(port, "POST", "/v1/streams", R"({"name":"voice","batch_interval":0})", as_json);
+  request(port, "POST", "/v1/streams", R"({"name":"voice","batch_interval":0})", json_type);
   WebSocket listener(port, "/v1/streams/voice", "semblante.v1.json");
   listener.send_text(R"({"type":"hello","version":1,"sound":true})");
   EXPECT_TRUE(std::get<Header>(next(listener)).sound);
   EXPECT_TRUE(std::holds_alternative<Keyframe>(next(listener)));
-  const auto made = request(port, "POST", "/v1/streams/voice/recordings", "{}", as_json);
+  const auto made = request(port, "POST", "/v1/streams/voice/recordings", "{}", json_type);
   ASSERT_EQ(made.status, 201) << made.body;
   const auto recording = "/v1/recordings/" + json::parse(made.body)["id"].get<std::string>();
 

@@ -23,8 +23,6 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
-
 /// An upload that has begun and does not go on.
 std::unique_ptr<OpenRequest> open_upload(int port, const std::string& token) {
   return std::make_unique<OpenRequest>(

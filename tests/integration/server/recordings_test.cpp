@@ -14,8 +14,6 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-const Fields json_type = {{"Content-Type", "application/json"}};
-
 class Recordings : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {

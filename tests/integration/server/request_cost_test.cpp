@@ -15,7 +15,6 @@ namespace {
 
 using nlohmann::json;
 
-const Fields json_type = {{"Content-Type", "application/json"}};
 /// Ten times what the slowest takes, a tenth of what the square would.
 constexpr double most_seconds = 2.0;
 

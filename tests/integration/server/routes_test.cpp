@@ -17,8 +17,6 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-const Fields json_type = {{"Content-Type", "application/json"}};
-
 /// One server for all tests of this file: each makes its own models.
 class Routes : public ::testing::Test {
  protected:

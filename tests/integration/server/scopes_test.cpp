@@ -20,8 +20,6 @@ const std::vector<std::string> scopes = {"none", "read", "publish", "edit", "adm
 
 Fields bearer(const std::string& token) { return {{"Authorization", "Bearer " + token}}; }
 
-std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
-
 class Scopes : public ::testing::Test {
  protected:
   Scopes() {

@@ -25,7 +25,6 @@ using ::testing::AnyOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-const Fields as_json = {{"Content-Type", "application/json"}};
 const std::string sentence = "A sentence that is long enough to be a part. ";
 
 class Storm {
@@ -80,7 +79,7 @@ class Storm {
  private:
   Reply ask(const std::string& method, const std::string& target, const json& body = {}) const {
     return request(server_.port(), method, target, body.is_null() ? "" : body.dump(),
-                   body.is_null() ? Fields{} : as_json);
+                   body.is_null() ? Fields{} : json_type);
   }
   void open(const std::string& stream) const {
     EXPECT_THAT(ask("POST", "/v1/streams", {{"name", stream}, {"batch_interval", 0}}).status, AnyOf(201, 409));

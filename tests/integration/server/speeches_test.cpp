@@ -18,7 +18,6 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-const Fields json_type = {{"Content-Type", "application/json"}};
 constexpr const char* beeps = SEMBLANTE_SOURCE_DIR "/server/voice/examples/beeps.py";
 
 void expect_problem(const Reply& reply, int status, const std::string& slug, const std::string& pointer = {}) {
@@ -197,7 +196,6 @@ std::string form_of(const std::vector<std::pair<std::string, std::string>>& part
         "--border\r\nContent-Disposition: form-data; name=\"" + name + "\"; filename=\"a\"\r\n\r\n" + content + "\r\n";
   return form + "--border--\r\n";
 }
-const Fields form_type = {{"Content-Type", "multipart/form-data; boundary=border"}};
 
 TEST_F(Speeches, TimelineOfAnotherVoice_BecomesAFaceOnItsSound_WithoutAVoice) {
   start({}, "none");

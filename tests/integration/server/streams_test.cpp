@@ -212,8 +212,6 @@ TEST_F(Streams, Published_ReachesSubscribersOfBothKinds) {
   EXPECT_EQ(request(port(), "POST", stream + "/frames", R"({"frames":[{}]})").status, 409);
 }
 
-const Fields as_json = {{"Content-Type", "application/json"}};
-
 TEST_F(Streams, Performance_IsPlayedAtItsTimesSeenAndEnds) {
   const auto stream = create("stage");
   WebSocket subscriber(port(), stream, "semblante.v1.json");
@@ -222,7 +220,7 @@ TEST_F(Streams, Performance_IsPlayedAtItsTimesSeenAndEnds) {
   EXPECT_EQ(next(subscriber).value("type", ""), "keyframe");
   const auto document = R"({"format":"semblante.performance","version":1,"name":"Jaw","duration":1000,"cues":[
     {"time":0,"fap":"open_jaw","keys":[[0,0],[1000,1000]],"easing":"linear"}]})";
-  const auto reply = request(port(), "POST", stream + "/performances?fps=50&from=200", document, as_json);
+  const auto reply = request(port(), "POST", stream + "/performances?fps=50&from=200", document, json_type);
   ASSERT_EQ(reply.status, 202) << reply.body;
   const auto playing = json::parse(reply.body);
   EXPECT_EQ(playing["kind"], "performance");
@@ -262,8 +260,8 @@ TEST_F(Streams, Performance_TakesOverOnlyIfItSaysSo) {
   publisher.send_text(hello("publish"));
   EXPECT_EQ(next(publisher).value("type", ""), "header");
   const auto document = R"({"format":"semblante.performance","version":1,"idle":{"seed":3}})";
-  EXPECT_EQ(request(port(), "POST", stream + "/performances", document, as_json).status, 409);
-  const auto reply = request(port(), "POST", stream + "/performances?take_over=true&loop=true", document, as_json);
+  EXPECT_EQ(request(port(), "POST", stream + "/performances", document, json_type).status, 409);
+  const auto reply = request(port(), "POST", stream + "/performances?take_over=true&loop=true", document, json_type);
   ASSERT_EQ(reply.status, 202) << reply.body;
   const auto end = next(publisher);
   EXPECT_EQ(end.value("type", ""), "end");
@@ -271,17 +269,17 @@ TEST_F(Streams, Performance_TakesOverOnlyIfItSaysSo) {
   const auto address = reply.headers.at("location");
   EXPECT_EQ(request(port(), "GET", address).status, 200);
   EXPECT_EQ(json::parse(request(port(), "GET", stream).body)["playing"]["id"], json::parse(reply.body)["id"]);
-  EXPECT_EQ(request(port(), "POST", stream + "/performances", document, as_json).status, 409);
-  EXPECT_EQ(request(port(), "POST", stream + "/frames", R"({"frames":[{}]})", as_json).status, 409);
+  EXPECT_EQ(request(port(), "POST", stream + "/performances", document, json_type).status, 409);
+  EXPECT_EQ(request(port(), "POST", stream + "/frames", R"({"frames":[{}]})", json_type).status, 409);
   EXPECT_EQ(request(port(), "DELETE", address).status, 204);
   EXPECT_EQ(request(port(), "DELETE", address).status, 404);
-  EXPECT_EQ(request(port(), "POST", stream + "/frames", R"({"frames":[{}]})", as_json).status, 202);
+  EXPECT_EQ(request(port(), "POST", stream + "/frames", R"({"frames":[{}]})", json_type).status, 202);
 }
 
 TEST_F(Streams, BadPerformances_NameThePlace) {
   const auto stream = create("strict");
   const auto refused = [&](const std::string& body, const std::string& query, int status, const std::string& pointer) {
-    const auto reply = request(port(), "POST", stream + "/performances" + query, body, as_json);
+    const auto reply = request(port(), "POST", stream + "/performances" + query, body, json_type);
     EXPECT_EQ(reply.status, status) << reply.body;
     EXPECT_EQ(json::parse(reply.body).value("pointer", ""), pointer) << reply.body;
   };
@@ -398,7 +396,7 @@ TEST_F(Streams, FramesInArkitsTerms_ArriveAsFaps) {
   const auto reply = request(port(), "POST", stream + "/frames",
                              R"({"frames":[{"arkit":{"jawOpen":1.5,"eyeBlinkLeft":1},"faps":{"4":1202}},)"
                              R"({"oculus":{"aa":1}}]})",
-                             as_json);
+                             json_type);
   ASSERT_EQ(reply.status, 202) << reply.body;
   EXPECT_EQ(json::parse(reply.body)["clamped"], 2) << "a coefficient and a FAP";
   const auto message = next(subscriber);
@@ -410,7 +408,7 @@ TEST_F(Streams, FramesInArkitsTerms_ArriveAsFaps) {
   EXPECT_EQ(faps.value("4", 0.0), 1200.0) << "what `faps` says goes before what the coefficients say";
   EXPECT_FALSE(message["frames"][0].contains("arkit"));
   EXPECT_EQ(message["frames"][1]["viseme"]["select1"], 10);
-  const auto wrong = request(port(), "POST", stream + "/frames", R"({"frames":[{"arkit":{"jawopen":1}}]})", as_json);
+  const auto wrong = request(port(), "POST", stream + "/frames", R"({"frames":[{"arkit":{"jawopen":1}}]})", json_type);
   EXPECT_EQ(wrong.status, 422);
   EXPECT_EQ(json::parse(wrong.body).value("pointer", ""), "/frames/0/arkit/jawopen");
 }

@@ -56,6 +56,9 @@ struct Reply {
 };
 
 using Fields = std::vector<std::pair<std::string, std::string>>;
+inline const Fields json_type = {{"Content-Type", "application/json"}};
+inline const Fields obj_type = {{"Content-Type", "model/obj"}};
+inline const Fields form_type = {{"Content-Type", "multipart/form-data; boundary=border"}};
 
 /// One request on a connection of its own, written by hand: the tests must not share the server's library.
 Reply request(int port, const std::string& method, const std::string& target, const std::string& body = {},

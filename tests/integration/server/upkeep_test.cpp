@@ -24,9 +24,6 @@ using nlohmann::json;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-const Fields json_type = {{"Content-Type", "application/json"}};
-const Fields obj_type = {{"Content-Type", "model/obj"}};
-
 std::string id_of(const Reply& reply) { return json_of(reply).value("id", reply.body); }
 
 class Upkeep : public ::testing::Test {

@@ -8,12 +8,12 @@
 namespace semblante {
 namespace {
 
-Result<std::vector<TimedFrame>> read(const std::string& frame) {
+Result<std::vector<TimedFrame>> read_one(const std::string& frame) {
   return decode_json_frames(R"({"frames":[)" + frame + "]}");
 }
 
 FaceFrame state_of(const std::string& frame) {
-  const auto frames = read(frame);
+  const auto frames = read_one(frame);
   EXPECT_TRUE(frames.ok()) << frames.error().where << " " << frames.error().message;
   return frames.ok() ? frames->front().state : FaceFrame{};
 }
@@ -94,12 +94,12 @@ TEST(JsonBridges, Wrong_IsRefusedAtItsPlace) {
       {R"({"oculus":{"aa":1},"viseme":{"select1":2}})", "/frames/0/oculus", ErrorCode::invalid_argument},
   };
   for (const Case& c : cases) {
-    const auto frames = read(c.frame);
+    const auto frames = read_one(c.frame);
     ASSERT_FALSE(frames.ok()) << c.frame;
     EXPECT_EQ(frames.error().where, c.where) << c.frame;
     EXPECT_EQ(frames.error().code, c.code) << c.frame;
   }
-  const auto between = read(R"({"arkit":)" + fifty_two("", "0").substr(0, 2 * arkit_count) + ",0]}");
+  const auto between = read_one(R"({"arkit":)" + fifty_two("", "0").substr(0, 2 * arkit_count) + ",0]}");
   ASSERT_FALSE(between.ok());
   EXPECT_EQ(between.error().where, "/frames/0/arkit");
 }

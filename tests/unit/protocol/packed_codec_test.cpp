@@ -138,7 +138,7 @@ TEST(PackedCodec, Keyframe_Anywhere_LetsItsReaderGoOnWithTheSameBytes) {
   }
 }
 
-std::string read(const std::string& path) {
+std::string file_text(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   EXPECT_TRUE(file) << path;
   return {std::istreambuf_iterator<char>(file), {}};
@@ -154,7 +154,7 @@ std::size_t stream_bytes(const std::vector<TimedFrame>& frames) {
 
 TEST(PackedCodec, Encode_TalkingMinute_TakesLessThanAKilobitASecond) {
   const auto script =
-      read_performance(read(std::string(SEMBLANTE_SOURCE_DIR) + "/protocol/examples/performances/minute.json"));
+      read_performance(file_text(std::string(SEMBLANTE_SOURCE_DIR) + "/protocol/examples/performances/minute.json"));
   ASSERT_TRUE(script.ok());
   const auto performance = Performance::compile(*script);
   ASSERT_TRUE(performance.ok());
@@ -171,7 +171,7 @@ TEST(PackedCodec, Encode_Samples_TakeLessThanTwoKilobitsASecond) {
   if (folder == nullptr || !std::ifstream(std::string(folder) + "/joy.fap")) GTEST_SKIP() << "no samples";
   const std::pair<const char*, double> most[] = {{"joy", 1.35}, {"anger", 1.37}, {"fear", 1.53}};  // kbit/s
   for (const auto& [name, kilobits] : most) {
-    const auto file = read_fap_file(read(std::string(folder) + "/" + name + ".fap"));
+    const auto file = read_fap_file(file_text(std::string(folder) + "/" + name + ".fap"));
     ASSERT_TRUE(file.ok());
     const auto values = frames_of(file->file);
     ASSERT_TRUE(values.ok());

@@ -78,7 +78,7 @@ TEST(PackedText, ClientsReadIt_AndServersDoNot) {
   EXPECT_EQ(refused.error().code, ErrorCode::unsupported);
 }
 
-json vectors() { return json::parse(std::ifstream(SEMBLANTE_SOURCE_DIR "/protocol/vectors/v1/packed_text.json")); }
+json text_vectors() { return json::parse(std::ifstream(SEMBLANTE_SOURCE_DIR "/protocol/vectors/v1/packed_text.json")); }
 
 Bytes bytes_of(const json& vector) {
   const auto hex = vector.at("binary").get<std::string>();
@@ -90,7 +90,7 @@ Bytes bytes_of(const json& vector) {
 
 TEST(PackedText, Vectors_MeanTheirJson_AndAreWrittenSo) {
   std::size_t packed_bytes = 0, plain_bytes = 0;
-  const json all = vectors();
+  const json all = text_vectors();
   ASSERT_FALSE(all.at("messages").empty());
   for (const json& vector : all.at("messages")) {
     const auto name = vector.at("name").get<std::string>();
@@ -111,7 +111,7 @@ TEST(PackedText, Vectors_MeanTheirJson_AndAreWrittenSo) {
 }
 
 TEST(PackedText, Vectors_Refused_AreNamedByCodeAndPointer) {
-  const json all = vectors();
+  const json all = text_vectors();
   ASSERT_FALSE(all.at("refused").empty());
   for (const json& vector : all.at("refused")) {
     const auto name = vector.at("name").get<std::string>();

@@ -24,7 +24,7 @@ namespace {
 using nlohmann::json;
 using Bytes = std::vector<std::uint8_t>;
 
-std::string read(const std::string& name) {
+std::string vector_file(const std::string& name) {
   std::ifstream file(std::string(SEMBLANTE_SOURCE_DIR) + "/protocol/vectors/v1/" + name, std::ios::binary);
   EXPECT_TRUE(file) << name;
   return {std::istreambuf_iterator<char>(file), {}};
@@ -39,7 +39,7 @@ Bytes from_hex(const std::string& hex) {
 }
 
 TEST(Vectors, Messages_BinaryAndJson_MeanTheSame) {
-  const json vectors = json::parse(read("messages.json"));
+  const json vectors = json::parse(vector_file("messages.json"));
   FrameEncoder encoder;
   FrameDecoder decoder;
   ASSERT_FALSE(vectors.at("messages").empty());
@@ -57,7 +57,7 @@ TEST(Vectors, Messages_BinaryAndJson_MeanTheSame) {
 }
 
 TEST(Vectors, StandardSteps_LeftOutOrWrittenOut_AreTheSame) {
-  const json vectors = json::parse(read("messages.json"));
+  const json vectors = json::parse(vector_file("messages.json"));
   std::size_t headers = 0;
   for (const json& vector : vectors.at("messages")) {
     const std::string name = vector.at("name");
@@ -86,7 +86,7 @@ void read_both_forms(const json& vector, Message& message) {
 }
 
 TEST(Vectors, AppendedFields_BinaryAndJson_MeanTheSame) {
-  const json vectors = json::parse(read("appended_fields.json"));
+  const json vectors = json::parse(vector_file("appended_fields.json"));
   ASSERT_EQ(vectors.at("messages").size(), 6U);
   std::map<std::string, Message> by_name;
   for (const json& vector : vectors.at("messages")) {
@@ -106,7 +106,7 @@ TEST(Vectors, AppendedFields_BinaryAndJson_MeanTheSame) {
 }
 
 TEST(Vectors, PackedStreams_BinaryAndJson_MeanTheSame) {
-  const json vectors = json::parse(read("packed.json"));
+  const json vectors = json::parse(vector_file("packed.json"));
   ASSERT_EQ(vectors.at("streams").size(), 6U);
   for (const json& stream : vectors.at("streams")) {
     const std::string name = stream.at("name");
@@ -135,7 +135,7 @@ TEST(Vectors, PackedStreams_BinaryAndJson_MeanTheSame) {
 }
 
 TEST(Vectors, PackedRefused_AreNamedByCodeAndPointer) {
-  const json vectors = json::parse(read("packed_refused.json"));
+  const json vectors = json::parse(vector_file("packed_refused.json"));
   ASSERT_FALSE(vectors.at("refused").empty());
   for (const json& vector : vectors.at("refused")) {
     const std::string name = vector.at("name");
@@ -151,7 +151,7 @@ TEST(Vectors, PackedRefused_AreNamedByCodeAndPointer) {
 }
 
 TEST(Vectors, Sound_BinaryAndJson_MeanTheSame) {
-  const json vectors = json::parse(read("sound.json"));
+  const json vectors = json::parse(vector_file("sound.json"));
   std::size_t packets = 0;
   for (const json& vector : vectors.at("messages")) {
     const std::string name = vector.at("name");
@@ -166,7 +166,7 @@ TEST(Vectors, Sound_BinaryAndJson_MeanTheSame) {
 }
 
 TEST(Vectors, Text_BinaryAndJson_MeanTheSame) {
-  const json vectors = json::parse(read("text.json"));
+  const json vectors = json::parse(vector_file("text.json"));
   std::size_t texts = 0;
   for (const json& vector : vectors.at("messages")) {
     const std::string name = vector.at("name");
@@ -189,10 +189,10 @@ TEST(Vectors, Text_BinaryAndJson_MeanTheSame) {
 }
 
 TEST(Vectors, Refused_BinaryAndJson_AreNamedByCodeAndPointer) {
-  json all = json::parse(read("refused.json")).at("refused");
-  const json of_sound = json::parse(read("sound.json"));
+  json all = json::parse(vector_file("refused.json")).at("refused");
+  const json of_sound = json::parse(vector_file("sound.json"));
   for (const json& vector : of_sound.at("refused")) all.push_back(vector);
-  const json of_text = json::parse(read("text.json"));
+  const json of_text = json::parse(vector_file("text.json"));
   for (const json& vector : of_text.at("refused")) all.push_back(vector);
   ASSERT_GT(all.size(), 20U);
   for (const json& vector : all) {
@@ -211,8 +211,8 @@ TEST(Vectors, Refused_BinaryAndJson_AreNamedByCodeAndPointer) {
 
 TEST(Vectors, Weights_AllWidths_GiveTheirMeaning) {
   for (const char* name : {"weights-8", "weights-12", "weights-16", "../v2/weights-12", "../v3/weights-12"}) {
-    const std::string file = read(std::string(name) + ".bin");
-    const json meaning = json::parse(read(std::string(name) + ".json"));
+    const std::string file = vector_file(std::string(name) + ".bin");
+    const json meaning = json::parse(vector_file(std::string(name) + ".json"));
     const auto table = decode_weights(Bytes(file.begin(), file.end()));
     ASSERT_TRUE(table.ok()) << name << ": " << table.error().message;
     EXPECT_EQ(to_hex(table->mesh_sha256), meaning.at("mesh_sha256").get<std::string>());
@@ -233,7 +233,7 @@ TEST(Vectors, Weights_AllWidths_GiveTheirMeaning) {
 
 TEST(Vectors, Rig_ReadAndWritten_IsTheSame) {
   for (const char* name : {"rig.json", "../v2/rig.json", "../v3/rig.json"}) {
-    const std::string text = read(name);
+    const std::string text = vector_file(name);
     const auto rig = read_rig(text);
     ASSERT_TRUE(rig.ok()) << rig.error().where << ": " << rig.error().message;
     EXPECT_EQ(write_rig(*rig) + "\n", text);

@@ -82,7 +82,7 @@ Bytes with_payload(const InfluenceTable& table, Change change) {
   return bytes;
 }
 
-void expect_refused(const Bytes& bytes, ErrorCode code, std::string_view where) {
+void expect_refused_weights(const Bytes& bytes, ErrorCode code, std::string_view where) {
   const auto result = decode_weights(bytes);
   ASSERT_FALSE(result.ok()) << where;
   EXPECT_EQ(result.error().code, code) << result.error().message;
@@ -100,30 +100,30 @@ TEST(WeightsFormat, Decode_InvalidHeader_IsRefusedByField) {
     fix_checksum(bytes);
     return bytes;
   };
-  expect_refused({}, ErrorCode::truncated, "header");
-  expect_refused(Bytes(good.begin(), good.begin() + 63), ErrorCode::truncated, "header");
-  expect_refused(changed(0, 'X', 1), ErrorCode::malformed, "magic");
-  expect_refused(changed(at_version, 4, 2), ErrorCode::unsupported, "version");
-  expect_refused(changed(at_version, 3, 2), ErrorCode::truncated, "turn");
-  expect_refused(changed(at_bits, 7, 1), ErrorCode::out_of_range, "bits");
-  expect_refused(changed(at_bits, 17, 1), ErrorCode::out_of_range, "bits");
-  expect_refused(changed(at_reserved, 1, 1), ErrorCode::malformed, "reserved");
-  expect_refused(changed(at_vertex_count, 0, 4), ErrorCode::empty, "vertex_count");
-  expect_refused(changed(at_vertex_count, 4'000'001, 4), ErrorCode::too_large, "vertex_count");
-  expect_refused(changed(at_entry_count, 48'000'001, 4), ErrorCode::too_large, "entry_count");
-  expect_refused(changed(at_entry_count, 12, 4), ErrorCode::mismatch, "entry_count");
-  expect_refused(changed(at_set_count, 0, 4), ErrorCode::out_of_range, "set_count");
-  expect_refused(changed(at_set_count, 10, 4), ErrorCode::out_of_range, "set_count");
-  expect_refused(changed(at_raw_bytes, 0xFFFFFFFF, 4), ErrorCode::malformed, "raw_bytes");
-  expect_refused(changed(at_raw_bytes, 10, 4), ErrorCode::malformed, "payload");
-  expect_refused(changed(at_packed_bytes, 0xFFFFFFFF, 4), ErrorCode::truncated, "payload");
-  expect_refused(changed(at_packed_bytes, 3, 4), ErrorCode::malformed, "payload");
+  expect_refused_weights({}, ErrorCode::truncated, "header");
+  expect_refused_weights(Bytes(good.begin(), good.begin() + 63), ErrorCode::truncated, "header");
+  expect_refused_weights(changed(0, 'X', 1), ErrorCode::malformed, "magic");
+  expect_refused_weights(changed(at_version, 4, 2), ErrorCode::unsupported, "version");
+  expect_refused_weights(changed(at_version, 3, 2), ErrorCode::truncated, "turn");
+  expect_refused_weights(changed(at_bits, 7, 1), ErrorCode::out_of_range, "bits");
+  expect_refused_weights(changed(at_bits, 17, 1), ErrorCode::out_of_range, "bits");
+  expect_refused_weights(changed(at_reserved, 1, 1), ErrorCode::malformed, "reserved");
+  expect_refused_weights(changed(at_vertex_count, 0, 4), ErrorCode::empty, "vertex_count");
+  expect_refused_weights(changed(at_vertex_count, 4'000'001, 4), ErrorCode::too_large, "vertex_count");
+  expect_refused_weights(changed(at_entry_count, 48'000'001, 4), ErrorCode::too_large, "entry_count");
+  expect_refused_weights(changed(at_entry_count, 12, 4), ErrorCode::mismatch, "entry_count");
+  expect_refused_weights(changed(at_set_count, 0, 4), ErrorCode::out_of_range, "set_count");
+  expect_refused_weights(changed(at_set_count, 10, 4), ErrorCode::out_of_range, "set_count");
+  expect_refused_weights(changed(at_raw_bytes, 0xFFFFFFFF, 4), ErrorCode::malformed, "raw_bytes");
+  expect_refused_weights(changed(at_raw_bytes, 10, 4), ErrorCode::malformed, "payload");
+  expect_refused_weights(changed(at_packed_bytes, 0xFFFFFFFF, 4), ErrorCode::truncated, "payload");
+  expect_refused_weights(changed(at_packed_bytes, 3, 4), ErrorCode::malformed, "payload");
   Bytes longer = good;
   longer.push_back(0);
-  expect_refused(longer, ErrorCode::malformed, "payload");
+  expect_refused_weights(longer, ErrorCode::malformed, "payload");
   Bytes other = good;
   other[at_mesh_sha256] ^= 1U;
-  expect_refused(other, ErrorCode::mismatch, "crc");
+  expect_refused_weights(other, ErrorCode::mismatch, "crc");
 }
 
 TEST(WeightsFormat, Decode_InvalidPayload_IsRefusedByField) {
@@ -134,18 +134,20 @@ TEST(WeightsFormat, Decode_InvalidPayload_IsRefusedByField) {
     return with_payload(table, [&](Bytes& raw) { raw.at(at) = value; });
   };
   ASSERT_TRUE(decode_weights(changed(0, 0x00)).ok());
-  expect_refused(changed(0, 0x80), ErrorCode::malformed, "dictionary");   // nothing that sums to one
-  expect_refused(changed(0, 0x7F), ErrorCode::truncated, "dictionary");   // 127 points announced
-  expect_refused(changed(2, 0x07), ErrorCode::malformed, "dictionary");   // 7, 7: a point twice
-  expect_refused(changed(4, 84), ErrorCode::out_of_range, "dictionary");  // there are 84, from 0
-  expect_refused(changed(12, 5), ErrorCode::out_of_range, "set_ids");     // five sets: 0..4
-  expect_refused(with_payload(table, [](Bytes& raw) { raw[raw.size() - 2] = 3; }), ErrorCode::out_of_range, "rigid");
-  expect_refused(with_payload(table, [](Bytes& raw) { raw.back() = 2; }), ErrorCode::out_of_range, "rigid");
-  expect_refused(with_payload(table, [](Bytes& raw) { raw.back() = 0; }), ErrorCode::out_of_range, "rigid");
-  expect_refused(with_payload(table, [](Bytes& raw) { raw.pop_back(); }), ErrorCode::truncated, "rigid");
-  expect_refused(with_payload(table, [](Bytes& raw) { raw.push_back(0); }), ErrorCode::malformed, "payload");
+  expect_refused_weights(changed(0, 0x80), ErrorCode::malformed, "dictionary");   // nothing that sums to one
+  expect_refused_weights(changed(0, 0x7F), ErrorCode::truncated, "dictionary");   // 127 points announced
+  expect_refused_weights(changed(2, 0x07), ErrorCode::malformed, "dictionary");   // 7, 7: a point twice
+  expect_refused_weights(changed(4, 84), ErrorCode::out_of_range, "dictionary");  // there are 84, from 0
+  expect_refused_weights(changed(12, 5), ErrorCode::out_of_range, "set_ids");     // five sets: 0..4
+  expect_refused_weights(with_payload(table, [](Bytes& raw) { raw[raw.size() - 2] = 3; }), ErrorCode::out_of_range,
+                         "rigid");
+  expect_refused_weights(with_payload(table, [](Bytes& raw) { raw.back() = 2; }), ErrorCode::out_of_range, "rigid");
+  expect_refused_weights(with_payload(table, [](Bytes& raw) { raw.back() = 0; }), ErrorCode::out_of_range, "rigid");
+  expect_refused_weights(with_payload(table, [](Bytes& raw) { raw.pop_back(); }), ErrorCode::truncated, "rigid");
+  expect_refused_weights(with_payload(table, [](Bytes& raw) { raw.push_back(0); }), ErrorCode::malformed, "payload");
   // The high plane of the first residual: 12 bits leave no room above 0x0F.
-  expect_refused(with_payload(table, [](Bytes& raw) { raw.at(21 + 7) = 0x10; }), ErrorCode::out_of_range, "weights");
+  expect_refused_weights(with_payload(table, [](Bytes& raw) { raw.at(21 + 7) = 0x10; }), ErrorCode::out_of_range,
+                         "weights");
 }
 
 TEST(WeightsFormat, Encode_PartsBeyondTheEyes_MakeVersion2) {
@@ -162,12 +164,12 @@ TEST(WeightsFormat, Encode_PartsBeyondTheEyes_MakeVersion2) {
   };
   ASSERT_TRUE(decode_weights(changed(4)).ok());
   for (const int between : {5, 100, 127}) {
-    expect_refused(changed(static_cast<std::uint8_t>(between)), ErrorCode::out_of_range, "rigid");
+    expect_refused_weights(changed(static_cast<std::uint8_t>(between)), ErrorCode::out_of_range, "rigid");
   }
   Bytes as_version_1 = bytes;
   as_version_1[at_version] = 1;
   fix_checksum(as_version_1);
-  expect_refused(as_version_1, ErrorCode::out_of_range, "rigid");
+  expect_refused_weights(as_version_1, ErrorCode::out_of_range, "rigid");
 }
 
 TEST(WeightsFormat, Encode_LidsOrSharesOfTheHeadsRotation_MakeVersion3) {
@@ -191,7 +193,7 @@ TEST(WeightsFormat, Encode_LidsOrSharesOfTheHeadsRotation_MakeVersion3) {
   Bytes as_version_2 = encode_weights(lids);
   as_version_2[at_version] = 2;
   fix_checksum(as_version_2);
-  expect_refused(as_version_2, ErrorCode::out_of_range, "rigid");
+  expect_refused_weights(as_version_2, ErrorCode::out_of_range, "rigid");
 }
 
 TEST(WeightsFormat, Decode_EveryPrefix_IsRefused) {
