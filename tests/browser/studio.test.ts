@@ -90,7 +90,7 @@ async function moveSliderAndCompare(studio: StudioPage): Promise<void> {
 
 describe('studio', () => {
   test('Studio_FirstVisit_SampleHeadMovesByTheDemoStream', async () => {
-    const studio = await StudioPage.open(browser, server.url);
+    const studio = await StudioPage.open(browser, server.url, { calm: true });
     await studio.waitForStage('ready');
     await studio.page
       .getByText(/^Live: /)
@@ -102,7 +102,7 @@ describe('studio', () => {
   });
 
   test('Studio_GraphicsContextLost_IsDrawnAgain', async () => {
-    const studio = await StudioPage.open(browser, server.url, { allowed: /Context Lost/ });
+    const studio = await StudioPage.open(browser, server.url, { calm: true, allowed: /Context Lost/ });
     await studio.waitForStage('ready');
     await studio.page.getByRole('button', { name: 'Pause the stream' }).click();
     const before = await studio.pictureAtRest();
@@ -121,7 +121,7 @@ describe('studio', () => {
   });
 
   test('Studio_DropMarkParametrize_SliderMovesTheMouth', async () => {
-    const studio = await StudioPage.open(browser, server.url);
+    const studio = await StudioPage.open(browser, server.url, { calm: true });
     await studio.waitForStage('ready');
     await bringToLife(studio, sampleHead, samplePoints);
     await moveSliderAndCompare(studio);
@@ -130,7 +130,7 @@ describe('studio', () => {
   });
 
   test.skipIf(faces === null)('Studio_DropMakeHuman_SliderMovesTheMouth', async () => {
-    const studio = await StudioPage.open(browser, server.url);
+    const studio = await StudioPage.open(browser, server.url, { calm: true });
     await studio.waitForStage('ready');
     await bringToLife(studio, join(faces!, 'makehuman/head.glb'), join(faces!, 'makehuman/makehuman.fps.json'));
     await moveSliderAndCompare(studio);
@@ -139,7 +139,7 @@ describe('studio', () => {
   });
 
   test('Studio_RefusedPoints_ReasonStandsBesideThePoint', async () => {
-    const studio = await StudioPage.open(browser, server.url, { allowed: /status of 4\d\d/ });
+    const studio = await StudioPage.open(browser, server.url, { calm: true, allowed: /status of 4\d\d/ });
     await studio.waitForStage('ready');
     await studio.drop(sampleHead, 'refused.glb');
     await studio.waitForState('ready');
@@ -154,7 +154,7 @@ describe('studio', () => {
   });
 
   test('Studio_FileThatIsNoModel_SaysSo', async () => {
-    const studio = await StudioPage.open(browser, server.url, { allowed: /status of 4\d\d/ });
+    const studio = await StudioPage.open(browser, server.url, { calm: true, allowed: /status of 4\d\d/ });
     await studio.waitForStage('ready');
     const text = join(scratch, 'letter.glb');
     writeFileSync(text, 'Dear reader, this is not a head.');
@@ -165,7 +165,7 @@ describe('studio', () => {
   });
 
   test('Studio_VrmFile_IsOfferedAndRead', async () => {
-    const studio = await StudioPage.open(browser, server.url);
+    const studio = await StudioPage.open(browser, server.url, { calm: true });
     const { page } = studio;
     await studio.waitForStage('ready');
     expect((await page.locator('#file').getAttribute('accept'))?.split(',')).toContain('.vrm');
@@ -178,7 +178,7 @@ describe('studio', () => {
   });
 
   test('Studio_AGltfWithItsFiles_ChosenOrDroppedAsAFolder_BecomesOneHead', async () => {
-    const studio = await StudioPage.open(browser, server.url);
+    const studio = await StudioPage.open(browser, server.url, { calm: true });
     await studio.waitForStage('ready');
     const folder = join(scratch, 'Ana');
     const files = writeGltf(folder, readFileSync(sampleHead));
@@ -198,7 +198,7 @@ describe('studio', () => {
   });
 
   test('Studio_RenameAndDelete_ShelfFollows', async () => {
-    const studio = await StudioPage.open(browser, server.url);
+    const studio = await StudioPage.open(browser, server.url, { calm: true });
     const { page } = studio;
     await studio.waitForStage('ready');
     await studio.drop(sampleHead, 'short-lived.glb');
@@ -220,7 +220,7 @@ describe('studio', () => {
   });
 
   test('Studio_PublishByHand_AnotherPageSeesIt', async () => {
-    const director = await StudioPage.open(browser, server.url);
+    const director = await StudioPage.open(browser, server.url, { calm: true });
     await director.waitForStage('ready');
     // Its own face stands still in the meantime: both pages share one software renderer.
     await director.page.getByRole('button', { name: 'Pause the stream' }).click();
@@ -233,7 +233,7 @@ describe('studio', () => {
     await director.page.getByRole('switch', { name: 'Publish my sliders' }).check();
     await director.page.getByText('Publishing: move a slider in Animate.').waitFor();
 
-    const viewer = await StudioPage.open(browser, server.url);
+    const viewer = await StudioPage.open(browser, server.url, { calm: true });
     await viewer.waitForStage('ready');
     await viewer.page.locator('#tab-live').click();
     await viewer.page.locator('.stream', { hasText: 'Two pages' }).getByRole('button', { name: 'Watch' }).click();

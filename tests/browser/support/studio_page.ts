@@ -47,12 +47,55 @@ export interface OpenOptions {
    * a graphics card most of a test's time is the drawing of pixels.
    */
   sharp?: boolean;
+  /**
+   * Draws ten times a second at most, and a quarter of the pixels of the face: for tests beside a stream that always moves it, whose
+   * motion they do not measure. Without a graphics card it would be drawn as often as the processor can.
+   */
+  calm?: boolean;
   /** Console errors that the test expects; a refused request, for example, is logged as a failed one. */
   allowed?: RegExp;
 }
 
 /** Device pixels along a side of a CSS pixel, for tests that look at no single ones. */
 export const coarse = 0.5;
+
+/** Pages of this context are `calm` ones: see `OpenOptions`. */
+export function calmDown(context: BrowserContext): Promise<void> {
+  return context.addInitScript(() => {
+    Object.defineProperty(window, 'devicePixelRatio', { get: () => 0.25 }); // the layout keeps the pixels that it has
+    const leastBetween = 90; // milliseconds: with the display's own steps ten frames a second
+    const requestFrame = window.requestAnimationFrame.bind(window);
+    let waiting = new Map<number, FrameRequestCallback>();
+    let called = waiting;
+    let last = -Infinity;
+    let newest = 0;
+    const tick = (time: number): void => {
+      if (time - last < leastBetween) {
+        requestFrame(tick);
+        return;
+      }
+      last = time;
+      called = waiting;
+      waiting = new Map();
+      for (const callback of called.values()) {
+        try {
+          callback(time);
+        } catch (error) {
+          reportError(error); // as the browser does: the others are called all the same
+        }
+      }
+    };
+    window.requestAnimationFrame = (callback) => {
+      if (waiting.size === 0) requestFrame(tick);
+      waiting.set((newest += 1), callback);
+      return newest;
+    };
+    window.cancelAnimationFrame = (id) => {
+      waiting.delete(id);
+      called.delete(id);
+    };
+  });
+}
 
 /** A phone, for `StudioPage.open`. */
 export const phone = { width: 390, height: 844, touch: true } as const;
@@ -75,6 +118,7 @@ export class StudioPage {
       ...(options.locale ? { locale: options.locale } : {}),
       ...(options.touch ? { isMobile: true, hasTouch: true } : {}),
     });
+    if (options.calm) await calmDown(context);
     return StudioPage.openIn(context, url, options);
   }
 
