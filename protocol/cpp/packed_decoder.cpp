@@ -65,6 +65,7 @@ Status read_packed_frames(std::span<const std::uint8_t> bytes, PackedState& stat
   frames.media_time = model.base_time(0);
   std::uint64_t time = model.offset(0);
   if (auto status = check(coder, model, [] { return std::string(); }); !status) return std::move(status).error();
+  if (count > max_media_time - state.sequence) return out_of_range("/sequence");
   for (std::uint64_t i = 0; i < count; ++i) {
     const auto where = [i] { return "/frames/" + std::to_string(i); };
     TimedFrame frame;

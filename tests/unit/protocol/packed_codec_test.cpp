@@ -217,6 +217,19 @@ TEST(PackedCodec, Decode_FramesBeforeAKeyframe_OrASecondTime_AreRefused) {
   expect_mismatch(batch);
 }
 
+TEST(PackedCodec, Decode_SequenceNumbersBeyondTheLast_AreRefused) {
+  PackedEncoder encoder(Keyframe{max_media_time - 1, 0, {}});
+  FrameDecoder reader;
+  ASSERT_TRUE(reader.decode(encoder.keyframe()));
+  const auto refused = reader.decode(PackedEncoder(encoder).encode(Frames{0, 40, {{0, {}}, {40, {}}}}));
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::out_of_range);
+  EXPECT_EQ(refused.error().where, "/sequence");
+  EXPECT_TRUE(reader.decode(encoder.encode(Frames{0, 40, {{0, {}}}}))) << "the last number of all";
+  FrameDecoder late;
+  EXPECT_TRUE(late.decode(encoder.keyframe()));
+}
+
 TEST(PackedCodec, Decode_AfterAnError_GoesOnFromTheLastGoodState) {
   const auto messages = batches(talking_face(9), 3);
   PackedEncoder encoder;
