@@ -26,9 +26,9 @@ Eigen::SparseMatrix<double> lower_triangle(const SparseMatrix& matrix) {
 
 }  // namespace
 
-// The rows are eliminated in the order of least degrees, which for the inside of a mouth needs half of the operations
-// that nested dissection by positions needs. Eigen's own solution would go through the factor for each column of the
-// right-hand sides; here a vertex's columns lie beside each other.
+// Rows are eliminated by least degree (AMD), which for the inside of a mouth takes half of the operations of nested
+// dissection by positions. The two triangular solves are not Eigen's: Eigen reads the factor once for each column of
+// the right-hand sides, these loops read it once for all of them.
 void solve_by_cholesky(const SparseMatrix& matrix, std::span<glm::vec4> rows, std::size_t width) {
   if (matrix.diagonal.empty()) return;
   using Factor = Eigen::SparseMatrix<double>;

@@ -10,7 +10,8 @@ namespace semblante {
 
 /// Radius of an adult's iris by that of the eyeball.
 inline constexpr float iris_of_ball = 0.49F;
-/// The same of a small child, whose iris is nearly full-grown: an iris is never larger.
+/// The greatest share that `iris_radius` gives: that of a small child, whose iris is nearly full-grown in a smaller
+/// ball.
 inline constexpr float widest_iris_of_ball = 0.55F;
 
 /// The radius of the ball of the eye with `role`: half the width or height of its widest part, whichever is more.

@@ -89,10 +89,10 @@ add_custom_target(fuzz_targets)
 set(SEMBLANTE_TEST_TIMEOUT 3600)
 
 # semblante_test(NAME SOURCES ... DEPENDS ... [QUICK] [THREADS] [PROCESSES]): a GoogleTest program whose cases
-# ctest runs one by one. A case runs once, so compiling it costs more than it does: its own code is hardly optimized, and
-# not at all if it is QUICK anyway. THREADS: worth a run under ThreadSanitizer. PROCESSES: starts our programs,
-# so it belongs to the normal build and not to AddressSanitizer's unit runs. Few programs of many files compile fastest:
-# GoogleTest's and the other headers are most of a small file, and files of one program share them.
+# ctest runs one by one. A test's own code is compiled with -O1, because each case runs only once. QUICK: the cases compute
+# so little that -O0 is enough. THREADS: worth a run under ThreadSanitizer. PROCESSES: starts our programs, so it belongs to
+# the normal build and not to AddressSanitizer's unit runs. Put a folder's tests into one program: unity builds then parse
+# GoogleTest's and other headers once for several files.
 function(semblante_test name)
   cmake_parse_arguments(ARG "QUICK;THREADS;PROCESSES" "" "SOURCES;DEPENDS" ${ARGN})
   add_executable(test_${name} ${ARG_SOURCES})

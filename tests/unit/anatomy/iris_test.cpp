@@ -47,7 +47,7 @@ struct Found {
   std::string why_not;
 };
 
-/// Of an eye whose parts are those of the model; IRISD0 is 6. `ball_radius` 0: none of the parts is one.
+/// Finds the iris of an eye that all parts of the model belong to; IRISD0 is 6. `ball_radius` 0: no part is a ball.
 Found find(const Model& model, const FeaturePointSet& points, float ball_radius = 0.0F) {
   const Surface surface = build_surface(model);
   std::vector<Part> parts(surface.part_count());
