@@ -217,9 +217,9 @@ static inline __attribute__((always_inline)) void sum_group(const float (*fp)[4]
 /* The motions of a run's vertices after Eq. 7. */
 typedef enum after { AFTER_NOTHING, AFTER_HEAD, AFTER_PART_AND_HEAD, AFTER_LIDS, AFTER_NECK, AFTER_EACH } after;
 
-/* A run of lids in batches: each motion of all groups of a batch before the next motion. Each is a long chain of
- * dependent operations, of which the processor overlaps more the shorter they are; and what few groups need is not
- * skipped by branches that are predicted wrongly. */
+/* A run of lids in batches: one motion of all groups of a batch, then the next. A motion is a long chain of dependent
+ * operations; the processor overlaps the chains of different registers, and more of them if a chain is short. The
+ * registers near the ball are listed first, since a branch for each of them would often be mispredicted. */
 #define LID_BATCH (16U / REGISTERS)
 
 static inline __attribute__((always_inline)) void deform_lids(const semblante_prepared_face* face,
