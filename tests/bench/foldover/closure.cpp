@@ -236,19 +236,29 @@ std::optional<Opening> Opening::find(const PosedFace& face, OpeningKind kind) {
 }
 
 std::vector<Closure> Opening::columns_of(std::span<const glm::vec3> moved) const {
-  std::vector<Closure> result;
-  for (std::size_t c = 0; c < columns; ++c) {
-    const double x = from_x_ + (to_x_ - from_x_) * static_cast<double>(c) / static_cast<double>(columns - 1);
-    Section section;
-    for (const Piece& piece : pieces_) {
-      const auto segment = cut(piece.triangle, moved, x);
+  const double step = (to_x_ - from_x_) / static_cast<double>(columns - 1);
+  std::array<Section, columns> sections;
+  for (const Piece& piece : pieces_) {
+    const auto [least, most] =
+        std::minmax({moved[piece.triangle[0]].x, moved[piece.triangle[1]].x, moved[piece.triangle[2]].x});
+    // The columns at the triangle, and one more on either side for what rounding loses; `cut` says which of them it
+    // reaches.
+    const auto [first, last] = std::minmax({(least - from_x_) / step, (most - from_x_) / step});
+    const double end = std::min(std::floor(last) + 2.0, static_cast<double>(columns));
+    for (double c = std::max(0.0, std::ceil(first) - 1.0); c < end; ++c) {
+      const auto segment =
+          cut(piece.triangle, moved, from_x_ + (to_x_ - from_x_) * c / static_cast<double>(columns - 1));
       if (!segment) continue;
+      Section& section = sections[static_cast<std::size_t>(c)];
       (piece.inside                ? section.inside
        : piece.side == Side::upper ? section.upper
        : piece.side == Side::lower ? section.lower
                                    : section.skin)
           .push_back(*segment);
     }
+  }
+  std::vector<Closure> result;
+  for (const Section& section : sections) {
     Closure column;
     if (!section.upper.empty() && !section.lower.empty()) {
       const Section::Visible visible = section.visible();
