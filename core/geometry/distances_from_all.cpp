@@ -78,19 +78,19 @@ std::vector<std::uint32_t> z_order(const Surface& graph, std::span<const Surface
   const glm::dvec3 size = high - low;
   const double extent = std::max({size.x, size.y, size.z});
   const double scale = extent > 0.0 ? 1023.0 / extent : 0.0;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> keys;  // (position on the curve, member)
+  std::vector<std::uint64_t> keys;  // position on the curve, then member
   keys.reserve(members.size());
   for (std::uint32_t m = 0; m < members.size(); ++m) {
     const glm::dvec3 cell = (graph.positions[members[m].value()] - low) * scale;
-    keys.emplace_back(spread_bits(static_cast<std::uint32_t>(cell.x)) |
-                          spread_bits(static_cast<std::uint32_t>(cell.y)) << 1 |
-                          spread_bits(static_cast<std::uint32_t>(cell.z)) << 2,
-                      m);
+    const std::uint64_t place = spread_bits(static_cast<std::uint32_t>(cell.x)) |
+                                spread_bits(static_cast<std::uint32_t>(cell.y)) << 1 |
+                                spread_bits(static_cast<std::uint32_t>(cell.z)) << 2;
+    keys.push_back(place << 32U | m);
   }
   std::sort(keys.begin(), keys.end());
   std::vector<std::uint32_t> order;
   order.reserve(keys.size());
-  for (const auto& [place, member] : keys) order.push_back(member);
+  for (const std::uint64_t key : keys) order.push_back(static_cast<std::uint32_t>(key));
   return order;
 }
 
@@ -233,38 +233,26 @@ class GroupSearch {
   std::vector<std::uint8_t> pending_;
 };
 
-}  // namespace
-
-void FreeDistances::operator()(double* distances) const { std::free(distances); }
-
-DistanceRows make_distance_rows(std::size_t count) {
+/// Memory for `count` distances, not initialized. It is aligned to cache lines, and large tables lie in huge pages
+/// where the system has them, because they are filled and read in random order.
+std::unique_ptr<double[], FreeDistances> make_lanes(std::size_t count) {
   constexpr std::size_t line = 64;
   constexpr std::size_t huge_page = std::size_t{2} << 20U;
   const std::size_t bytes = std::max(count * sizeof(double), line);
   const bool is_large = bytes >= 2 * huge_page;
   const std::size_t unit = is_large ? huge_page : line;
   const std::size_t whole = (bytes + unit - 1) / unit * unit;
-  DistanceRows rows(static_cast<double*>(std::aligned_alloc(unit, whole)));
-  if (!rows) throw std::bad_alloc();
+  std::unique_ptr<double[], FreeDistances> lanes(static_cast<double*>(std::aligned_alloc(unit, whole)));
+  if (!lanes) throw std::bad_alloc();
 #if defined(__linux__)
-  if (is_large) madvise(rows.get(), whole, MADV_HUGEPAGE);
+  if (is_large) madvise(lanes.get(), whole, MADV_HUGEPAGE);
 #endif
-  return rows;
+  return lanes;
 }
 
-DistanceRows DistancesFromAll::rows() const {
-  const std::size_t sources = lane_of_.size();
-  DistanceRows rows = make_distance_rows(vertex_of_.size() * sources);
-  std::vector<std::uint32_t> member_of(vertex_of_.size());
-  for (std::uint32_t m = 0; m < vertex_of_.size(); ++m) member_of[vertex_of_[m]] = m;
-  // In the order of the lanes, whose parts of a row lie far from each other: only whole rows are written out of order.
-  for (std::size_t vertex = 0; vertex < member_of.size(); ++vertex) {
-    const double* const from = lanes_.get() + vertex * DistanceGroup::lane_count;
-    double* const row = rows.get() + member_of[vertex] * sources;
-    for (std::size_t source = 0; source < sources; ++source) row[source] = from[lane_of_[source]];
-  }
-  return rows;
-}
+}  // namespace
+
+void FreeDistances::operator()(double* distances) const { std::free(distances); }
 
 DistancesFromAll distances_from_all(const Surface& graph, PartId part, std::span<const SurfaceVertexId> sources,
                                     const DistanceKernel& kernel) {
@@ -285,7 +273,7 @@ DistancesFromAll distances_from_all(const Surface& graph, PartId part, std::span
   const std::size_t group_size = members.size() * lane_count;
   const std::size_t groups = (sources.size() + lane_count - 1) / lane_count;
   DistancesFromAll result;
-  result.lanes_ = make_distance_rows(groups * group_size);
+  result.lanes_ = make_lanes(groups * group_size);
   result.lane_of_.resize(sources.size());
   GroupSearch search(own, kernel);
   for (std::size_t g = 0; g < groups; ++g) {

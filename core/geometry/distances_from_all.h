@@ -13,10 +13,6 @@ namespace semblante {
 struct FreeDistances {
   void operator()(double* distances) const;
 };
-using DistanceRows = std::unique_ptr<double[], FreeDistances>;
-/// Memory for `count` distances, not initialized. It is aligned to cache lines, and large tables lie in huge pages
-/// where the system has them, because they are filled and read in random order.
-DistanceRows make_distance_rows(std::size_t count);
 
 /// Surface distances from many sources to every vertex of one part.
 class DistancesFromAll {
@@ -25,15 +21,17 @@ class DistancesFromAll {
   [[nodiscard]] double at(std::size_t source, std::size_t member) const {
     return lanes_[lane_of_[source] + vertex_of_[member] * DistanceGroup::lane_count];
   }
-  /// Distances from every source to every member: #M x #sources, row by row.
-  [[nodiscard]] DistanceRows rows() const;
+  /// The distances from every source to one member, written to `row`, which has as many places.
+  void read_row(std::size_t member, std::span<double> row) const {
+    for (std::size_t source = 0; source < lane_of_.size(); ++source) row[source] = at(source, member);
+  }
 
  private:
   friend DistancesFromAll distances_from_all(const Surface&, PartId, std::span<const SurfaceVertexId>,
                                              const DistanceKernel&);
-  DistanceRows lanes_;                    ///< #groups x #M x lane_count
-  std::vector<std::size_t> lane_of_;      ///< by source: where the first vertex's distance is in `lanes_`
-  std::vector<std::uint32_t> vertex_of_;  ///< by member: its number in the kernel's arrays
+  std::unique_ptr<double[], FreeDistances> lanes_;  ///< #groups x #M x lane_count
+  std::vector<std::size_t> lane_of_;                ///< by source: where the first vertex's distance is in `lanes_`
+  std::vector<std::uint32_t> vertex_of_;            ///< by member: its number in the kernel's arrays
 };
 
 /// One search for all sources, sixteen at a time. Bit for bit the values of EdgePathSearch: the minimum, over all

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <optional>
 #include <queue>
 
@@ -76,8 +75,8 @@ class Diffusion {
   }
 
   [[nodiscard]] WeightRow row(std::size_t member) const {
-    WeightRow row{};
-    for (std::size_t c = 0; c < ids_.size(); ++c) row[ids_[c]] = rows_[member * blocks_ + c / columns][c % columns];
+    WeightRow row;
+    for (std::size_t c = 0; c < ids_.size(); ++c) row.at(ids_[c]) = rows_[member * blocks_ + c / columns][c % columns];
     return row;
   }
 
@@ -101,15 +100,17 @@ class Diffusion {
 
   /// Rows 0 to #members - 1 are the members'; those of the rim follow.
   void find_links() {
-    std::map<SurfaceVertexId, std::uint32_t> rim;
+    constexpr std::uint32_t none = 0xFFFFFFFFU;
+    std::vector<std::uint32_t> row_of(surface_.vertex_count(), none);
+    const auto members = static_cast<std::uint32_t>(cavity_.members.size());
+    for (std::uint32_t m = 0; m < members; ++m) row_of[cavity_.members[m].value()] = m;
     link_offsets_.push_back(0);
     for (const SurfaceVertexId v : cavity_.members) {
       for (const Surface::Step& step : surface_.steps_from(v)) {
-        const auto at = std::lower_bound(cavity_.members.begin(), cavity_.members.end(), step.to);
-        std::uint32_t row = static_cast<std::uint32_t>(at - cavity_.members.begin());
-        if (at == cavity_.members.end() || *at != step.to) {
-          row = rim.try_emplace(step.to, static_cast<std::uint32_t>(cavity_.members.size() + rim.size())).first->second;
-          if (row - cavity_.members.size() == rim_.size()) rim_.push_back(step.to);
+        std::uint32_t& row = row_of[step.to.value()];
+        if (row == none) {
+          row = members + static_cast<std::uint32_t>(rim_.size());
+          rim_.push_back(step.to);
         }
         const double length = std::max(step.length / unit_, shortest_link);
         links_.push_back({row, length, static_cast<float>(1.0 / (length * length))});
@@ -203,35 +204,40 @@ class Diffusion {
 
   /// The points that any row can have: those of the rim, the back of the lips and the skin in front, and the jaw's.
   void find_columns(const RowOfVertex& row_of) {
-    std::array<bool, feature_point_count> used{};
+    SlotSet used;
     const auto use = [&](const WeightRow& row) {
-      for (std::size_t id = 0; id < row.size(); ++id) used[id] = used[id] || row[id] > 0.0;
+      row.for_each([&](std::size_t id, double w) {
+        if (w > 0.0) used.insert(id);
+      });
     };
     for (const SurfaceVertexId v : rim_) use(row_of(v));
     for (const SurfaceVertexId v : in_front_) use(row_of(v));
     for (std::size_t m = 0; m < cavity_.members.size(); ++m) {
       if (is_on_lip(m)) use(row_of(cavity_.members[m]));
     }
-    if (cavity_.is_mouth) used[jaw_point()] = true;
-    for (std::size_t id = 0; id < used.size(); ++id) {
-      if (used[id]) ids_.push_back(id);
-    }
+    if (cavity_.is_mouth) used.insert(jaw_point());
+    used.for_each([&](std::size_t id) {
+      column_of_[id] = ids_.size();
+      ids_.push_back(id);
+    });
     blocks_ = (ids_.size() + columns - 1) / columns;
   }
 
   [[nodiscard]] WeightRow row_of_goal(const Goal& goal, const RowOfVertex& row_of) const {
-    WeightRow row{};
+    WeightRow row;
     for (std::size_t k = goal.begin; k < goal.end; ++k) {
-      const WeightRow& in_front = row_of(in_front_[k]);
-      for (const std::size_t id : ids_) row[id] += goal.share_of_each * in_front[id];
+      row_of(in_front_[k]).for_each([&](std::size_t id, double w) { row.at(id) += goal.share_of_each * w; });
     }
-    row[jaw_point()] += goal.jaw;
+    row.at(jaw_point()) += goal.jaw;
     return row;
   }
 
   void read_row(const WeightRow& row, std::size_t at, std::vector<Block>& rows) const {
-    for (std::size_t c = 0; c < ids_.size(); ++c)
-      rows[at * blocks_ + c / columns][c % columns] = static_cast<float>(row[ids_[c]]);
+    row.for_each([&](std::size_t id, double w) {
+      if (!(w > 0.0)) return;  // it may have no column
+      const std::size_t c = column_of_[id];
+      rows[at * blocks_ + c / columns][c % columns] = static_cast<float>(w);
+    });
   }
 
   /// The rim's rows, and what the members are pulled to, and how much.
@@ -274,9 +280,10 @@ class Diffusion {
   std::vector<SurfaceVertexId> rim_;
   std::vector<Link> links_;
   std::vector<std::uint32_t> link_offsets_;
-  std::vector<std::size_t> ids_;  ///< of the columns
-  std::size_t blocks_ = 0;        ///< of a row
-  std::vector<Goal> goals_;       ///< of the members of a mouth
+  std::vector<std::size_t> ids_;                              ///< of the columns
+  std::array<std::size_t, feature_point_count> column_of_{};  ///< by id
+  std::size_t blocks_ = 0;                                    ///< of a row
+  std::vector<Goal> goals_;                                   ///< of the members of a mouth
   std::vector<SurfaceVertexId> in_front_;
   std::vector<double> distance_;  ///< of the members from the rim
   std::vector<float> pull_;       ///< of the members: how strongly each is pulled to its row in rows_

@@ -120,7 +120,7 @@ class PartFit {
     for (std::size_t k = 0; k < smooth_.points_of(member).size(); ++k) {
       smooth_row_[slot_of_[smooth_.points_of(member)[k].value()]] = smooth_.weights_of(member)[k];
     }
-    const std::span<const double> from = distances_.of_member(member);
+    const std::span<const double> from = distances_.of_member(member, from_points_);
     for (std::size_t f = 0; f < count_; ++f) {
       const double away = from[f] / length_;
       ridges_[f] = smooth_ridge * (1.0 + away * away);
@@ -151,16 +151,14 @@ class PartFit {
   }
 
   WeightRow row_of(std::span<const double> weights, double freedom) {
-    WeightRow row{};
+    WeightRow row;
     double sum = 0.0;
     for (std::size_t f = 0; f < count_; ++f) {
       const double w = smooth_row_[f] + freedom * (weights[f] - smooth_row_[f]);
-      row[distances_.points[f].id.value()] = w;
+      row.at(distances_.points[f].id.value()) = w;
       sum += w;
     }
-    if (sum > 1.0) {
-      for (double& w : row) w /= sum;
-    }
+    if (sum > 1.0) row.for_each([&](std::size_t, double& w) { w /= sum; });
     keep_greatest(row);
     return row;
   }
@@ -198,7 +196,7 @@ class PartFit {
   std::vector<Gram> without_;  ///< entry s: of all shapes except shape s
   std::size_t first_ = 0;
   std::vector<double> wanted_;  ///< of the block, by member
-  std::vector<double> smooth_row_, ridges_, fitted_, others_, left_out_, slope_;
+  std::vector<double> from_points_, smooth_row_, ridges_, fitted_, others_, left_out_, slope_;
   FittedWeights result_;
 };
 

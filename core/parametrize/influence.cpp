@@ -14,6 +14,10 @@ class InfluenceRow {
   explicit InfluenceRow(WeightMethod method) : method_(method) {}
   void add(FeaturePointId id, double weight) {
     if (!(weight > 0.0)) return;
+    if (entries_.empty() || entries_.back().id < id) {  // as a rule: rows have rising ids
+      entries_.push_back({id, weight});
+      return;
+    }
     const auto at = std::lower_bound(entries_.begin(), entries_.end(), id,
                                      [](const Entry& e, FeaturePointId wanted) { return e.id < wanted; });
     if (at != entries_.end() && at->id == id) {

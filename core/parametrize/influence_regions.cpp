@@ -78,9 +78,10 @@ std::vector<SlotSet> influence_regions(const Surface& surface, const PointDistan
 
   RegionOfVertex region_of(distances.points);
   std::vector<SlotSet> regions(distances.members.size());
+  std::vector<double> row;
   for (std::size_t m = 0; m < regions.size(); ++m) {
     const std::uint32_t vertex = distances.members[m].value();
-    if (!is_point[vertex]) regions[m] = region_of(surface.positions[vertex], distances.of_member(m));
+    if (!is_point[vertex]) regions[m] = region_of(surface.positions[vertex], distances.of_member(m, row));
   }
   return regions;
 }

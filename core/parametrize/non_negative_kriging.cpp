@@ -1,6 +1,7 @@
 #include "core/parametrize/non_negative_kriging.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 
@@ -45,6 +46,32 @@ void NonNegativeKriging::solve_passive(std::span<const double> to_target) {
   }
 }
 
+std::size_t NonNegativeKriging::most_gain(std::span<const double> to_target) const {
+  std::size_t best = sites_.size();
+  double best_gain = least_gain;
+  // Several sites side by side: their sums need not wait for each other.
+  constexpr std::size_t width = 4;
+  for (std::size_t first = 0; first < sites_.size(); first += width) {
+    std::array<std::size_t, width> site{};
+    std::array<double, width> gain{};
+    for (std::size_t k = 0; k < width; ++k) {
+      const std::size_t s = std::min(first + k, sites_.size() - 1);
+      site[k] = sites_[s];
+      gain[k] = to_target[s];
+    }
+    for (std::size_t p = 0; p < passive_.size(); ++p) {
+      const double* const row = &covariance_[sites_[passive_[p]] * site_count_];
+      for (std::size_t k = 0; k < width; ++k) gain[k] -= row[site[k]] * trial_[p];
+    }
+    for (std::size_t k = 0; k < width && first + k < sites_.size(); ++k) {
+      if (!(gain[k] > best_gain) || is_passive_[first + k] != 0) continue;
+      best_gain = gain[k];
+      best = first + k;
+    }
+  }
+  return best;
+}
+
 // The active-set method of Lawson and Hanson, on the normal equations (K is well conditioned). `passive_` keeps the
 // order of insertion, so that Cholesky's factor only grows; it is rebuilt from the first removed site on. It starts
 // from the sites of the last solution, which for a neighbouring target are nearly always those of this one.
@@ -53,7 +80,7 @@ std::span<const double> NonNegativeKriging::solve(std::span<const std::size_t> s
   assert(sites.size() == to_target.size());
   sites_ = sites;
   weights_.assign(sites.size(), 0.0);
-  is_passive_.assign(sites.size(), false);
+  is_passive_.assign(sites.size(), 0);
   passive_.clear();
   bool is_factor_valid = true;  // the last solution's factor holds up to its first site that is out of reach now
   for (const std::size_t site : last_) {
@@ -63,7 +90,7 @@ std::span<const double> NonNegativeKriging::solve(std::span<const std::size_t> s
       continue;
     }
     passive_.push_back(static_cast<std::size_t>(at - sites.begin()));
-    is_passive_[passive_.back()] = true;
+    is_passive_[passive_.back()] = 1;
     if (!is_factor_valid) extend_factor(passive_.size() - 1);
   }
   // Every iteration lowers the objective and no passive set repeats; the limit is only for rounding errors.
@@ -85,7 +112,7 @@ std::span<const double> NonNegativeKriging::solve(std::span<const std::size_t> s
         weight += step * (trial_[p] - weight);
         if (leaves) {
           weight = 0.0;
-          is_passive_[s] = false;
+          is_passive_[s] = 0;
           first_left = std::min(first_left, p);
         } else {
           passive_[kept++] = s;
@@ -96,20 +123,10 @@ std::span<const double> NonNegativeKriging::solve(std::span<const std::size_t> s
       solve_passive(to_target);
     }
     for (std::size_t p = 0; p < passive_.size(); ++p) weights_[passive_[p]] = trial_[p];
-    std::size_t best = sites.size();
-    double best_gain = least_gain;
-    for (std::size_t s = 0; s < sites.size(); ++s) {
-      if (is_passive_[s]) continue;
-      double gain = to_target[s];
-      for (const std::size_t p : passive_) gain -= covariance(sites[s], sites[p]) * weights_[p];
-      if (gain > best_gain) {
-        best_gain = gain;
-        best = s;
-      }
-    }
+    const std::size_t best = most_gain(to_target);
     if (best == sites.size()) break;
     passive_.push_back(best);
-    is_passive_[best] = true;
+    is_passive_[best] = 1;
     extend_factor(passive_.size() - 1);
   }
   last_.clear();

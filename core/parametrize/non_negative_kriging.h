@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -21,13 +22,16 @@ class NonNegativeKriging {
   /// Appends a row to Cholesky's factor of K over the passive sites.
   void extend_factor(std::size_t row);
   void solve_passive(std::span<const double> to_target);
+  /// The place of the site that is not passive whose weight would lower the objective most; the number of sites if
+  /// none would.
+  [[nodiscard]] std::size_t most_gain(std::span<const double> to_target) const;
   [[nodiscard]] double covariance(std::size_t a, std::size_t b) const { return covariance_[a * site_count_ + b]; }
 
   std::vector<double> covariance_;
   std::size_t site_count_;
   std::vector<double> weights_;       ///< of all sites of the call
   std::vector<std::size_t> passive_;  ///< places in `sites` whose weight may be positive
-  std::vector<bool> is_passive_;
+  std::vector<std::uint8_t> is_passive_;
   std::vector<std::size_t> last_;  ///< passive sites of the last solution
   std::vector<double> trial_;      ///< unconstrained weights of passive_
   std::vector<double> factor_;     ///< lower triangle, row by row, #F wide

@@ -15,11 +15,15 @@ namespace semblante {
 struct PointDistances {
   std::vector<SurfacePoint> points;          ///< #F on this part, in rising order of id; a *slot* indexes them
   std::span<const SurfaceVertexId> members;  ///< #M vertices of the part
-  DistanceRows to_members;                   ///< #M x #F, row by row
+  DistancesFromAll to_members;               ///< from every slot
   std::vector<double> between;               ///< #F x #F, d_ij; symmetric
 
-  [[nodiscard]] std::span<const double> of_member(std::size_t member) const {
-    return {&to_members[member * points.size()], points.size()};
+  [[nodiscard]] double at(std::size_t slot, std::size_t member) const { return to_members.at(slot, member); }
+  /// All #F of a member, in `row`.
+  std::span<const double> of_member(std::size_t member, std::vector<double>& row) const {
+    row.resize(points.size());
+    to_members.read_row(member, row);
+    return row;
   }
   [[nodiscard]] double between_points(std::size_t i, std::size_t j) const { return between[i * points.size() + j]; }
 };

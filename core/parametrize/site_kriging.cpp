@@ -33,10 +33,12 @@ double trust(double detour) {
 
 /// The distance along the surface to a site; without a search from the site a lower bound by the triangle inequality:
 /// the difference of the distances from both to a third place.
-double way_to(const KrigingSite& site, std::span<const double> from) {
-  if (site.slot) return from[*site.slot];
+double way_to(const KrigingSite& site, const PointDistances& distances, std::size_t member) {
+  if (site.slot) return distances.at(*site.slot, member);
   double least = 0.0;
-  for (const std::size_t at : site.landmarks) least = std::max(least, std::abs(from[at] - site.distances[at]));
+  for (const std::size_t at : site.landmarks) {
+    least = std::max(least, std::abs(distances.at(at, member) - site.distances[at]));
+  }
   return least;
 }
 
@@ -85,7 +87,7 @@ std::vector<KrigingSite> edge_sites(const Surface& surface, const PointDistances
       continue;
     }
     KrigingSite site{margin.vertex, surface.positions[margin.vertex.value()], margin.shares, std::nullopt, {}, {}};
-    site.distances = distances.of_member(static_cast<std::size_t>(member - distances.members.begin()));
+    distances.of_member(static_cast<std::size_t>(member - distances.members.begin()), site.distances);
     site.landmarks.resize(distances.points.size());
     std::iota(site.landmarks.begin(), site.landmarks.end(), std::size_t{0});
     std::stable_sort(site.landmarks.begin(), site.landmarks.end(),
@@ -154,25 +156,28 @@ const std::vector<std::size_t>& SiteKriging::near_block(std::size_t block) {
 std::span<const SiteKriging::Term> SiteKriging::at(std::size_t member) {
   const SurfaceVertexId vertex = distances_.members[member];
   const glm::dvec3& p = surface_.positions[vertex.value()];
-  const std::span<const double> along_surface = distances_.of_member(member);
   candidates_.clear();
   to_target_.clear();
   terms_.clear();
   for (const std::size_t s : near_block(member / block_size)) {
     const KrigingSite& site = sites_[s];
-    const double straight = glm::distance(p, site.position);
-    if (straight >= reach_) continue;
-    if (vertex == site.vertex || (site.slot && along_surface[*site.slot] == 0.0)) {
+    const glm::dvec3 away = p - site.position;
+    const double squared = glm::dot(away, away);
+    if (squared >= reach_ * reach_) continue;
+    if (vertex == site.vertex || (site.slot && distances_.at(*site.slot, member) == 0.0)) {
       terms_.assign(1, {&site, 1.0});
       return terms_;
     }
-    const double along = way_to(site, along_surface);
+    const double straight = std::sqrt(squared);
+    const double along = way_to(site, distances_, member);
     if (along >= greatest_detour * straight) continue;
-    const double covariance = table_.at(straight / unit_) * trust(along / straight);
+    const double share = along <= trusted_detour * straight ? 1.0 : trust(along / straight);
+    const double covariance = table_.at(straight / unit_) * share;
     if (!(covariance > kernel_.least)) continue;
     candidates_.push_back(s);
     to_target_.push_back((covariance - kernel_.least) / (1.0 - kernel_.least));
   }
+  if (candidates_.empty()) return terms_;
   const std::span<const double> weights = kriging_.solve(candidates_, to_target_);
   for (std::size_t c = 0; c < candidates_.size(); ++c) {
     if (weights[c] > 0.0) terms_.push_back({&sites_[candidates_[c]], weights[c]});

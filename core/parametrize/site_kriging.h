@@ -21,9 +21,8 @@ struct KrigingSite {
   glm::dvec3 position{0.0};
   std::vector<std::pair<FeaturePointId, double>> shares;  ///< positive, sum 1
   std::optional<std::size_t> slot;                        ///< in PointDistances, of a point here
-  /// Without a search from here: its row of PointDistances, and the slots in it that give the best bounds for near
-  /// places.
-  std::span<const double> distances;
+  /// Without a search from here: its distances to all slots, and those slots that give the best bounds for near places.
+  std::vector<double> distances;
   std::vector<std::size_t> landmarks;
 };
 

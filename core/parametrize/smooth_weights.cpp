@@ -47,26 +47,24 @@ void raise_sum(Row& weights) {
   const double sum = sum_of(weights);
   if (!(sum > 0.0)) return;
   const double raised = 1.0 - std::pow(std::max(0.0, 1.0 - sum / full_sum), root_power);
-  for (double& w : weights) w *= raised / sum;
+  weights.scale(raised / sum);
 }
 
 void add(Row& row, const KrigingSite& site, double weight) {
-  for (const auto& [id, share] : site.shares) row[id.value()] += weight * share;
+  for (const auto& [id, share] : site.shares) row.at(id.value()) += weight * share;
 }
 
 /// Sets negative weights to zero and keeps the sum, at most one.
 void cut(Row& row) {
   const double sum = std::clamp(sum_of(row), 0.0, 1.0);
-  for (double& w : row) w = std::max(0.0, w);
+  row.for_each([](std::size_t, double& w) { w = std::max(0.0, w); });
   const double more = sum_of(row);
-  if (more > sum) {
-    for (double& w : row) w *= sum / more;
-  }
+  if (more > sum) row.scale(sum / more);
 }
 
 /// The row of a member from the points alone.
 Row row_of_points(SiteKriging& points, std::size_t member) {
-  Row row{};
+  Row row;
   for (const SiteKriging::Term& term : points.at(member)) add(row, *term.site, term.weight);
   raise_sum(row);
   return row;
@@ -111,7 +109,7 @@ WeightTable<double> smooth_part_weights(const Surface& surface, const PointDista
     Row& correction = corrections.emplace_back();
     add(correction, site, 1.0);
     const Row plain = row_of_points(points, member_of(distances, site.vertex));
-    for (std::size_t id = 0; id < plain.size(); ++id) correction[id] -= plain[id];
+    plain.for_each([&](std::size_t id, double w) { correction.at(id) -= w; });
   }
   const std::size_t edge_count = of_edges.size();
   of_edges.insert(of_edges.end(), of_points.begin(), of_points.end());
@@ -135,7 +133,7 @@ WeightTable<double> smooth_part_weights(const Surface& surface, const PointDista
     for (const SiteKriging::Term& term : edges.at(m)) {
       const auto site = static_cast<std::size_t>(term.site - edges.sites().data());
       if (site >= edge_count) continue;
-      for (std::size_t id = 0; id < row.size(); ++id) row[id] += term.weight * corrections[site][id];
+      corrections[site].for_each([&](std::size_t id, double w) { row.at(id) += term.weight * w; });
     }
     cut(row);
     keep_greatest(row);

@@ -29,16 +29,14 @@ bool on_any_edge(std::size_t id) {
                      [&](const mpeg4::Opening& o) { return on_edge(o, id); });
 }
 
-/// The points on the edge of a lip or lid.
-const std::vector<std::size_t>& edge_points() {
-  static const std::vector<std::size_t> points = [] {
-    std::vector<std::size_t> on_edges;
-    for (std::size_t id = 0; id < feature_point_count; ++id) {
-      if (on_any_edge(id)) on_edges.push_back(id);
-    }
-    return on_edges;
+/// By id: whether the point lies on the edge of a lip or lid.
+const std::array<bool, feature_point_count>& are_on_edges() {
+  static const std::array<bool, feature_point_count> on_edges = [] {
+    std::array<bool, feature_point_count> result{};
+    for (std::size_t id = 0; id < result.size(); ++id) result[id] = on_any_edge(id);
+    return result;
   }();
-  return points;
+  return on_edges;
 }
 
 bool is_of_eyes_or_brows(std::size_t id) {
@@ -69,7 +67,7 @@ WeightPrior::OffsetTerms WeightPrior::offset_terms(const glm::dvec3& offset) {
 
 double WeightPrior::share_off_edges(const WeightRow& row) {
   double on_edges = 0.0;
-  for (const std::size_t id : edge_points()) on_edges += row[id];
+  row.for_each([&, &is_on_edge = are_on_edges()](std::size_t id, double w) { on_edges += is_on_edge[id] ? w : 0.0; });
   return 1.0 - on_edges;
 }
 
@@ -107,14 +105,14 @@ void WeightPrior::correct(WeightRow& row, const glm::dvec3& position, const Plac
   std::array<double, feature_point_count> shares{};
   std::size_t count = 0;
   double sum = 0.0;
-  for (std::size_t id = 0; id < row.size(); ++id) {
-    if (!(row[id] > 0.0)) continue;
-    sum += row[id];
-    shares[count] = row[id];
+  row.for_each([&](std::size_t id, double w) {
+    if (!(w > 0.0)) return;
+    sum += w;
+    shares[count] = w;
     ids[count++] = static_cast<std::uint8_t>(id);
-  }
+  });
   if (count == 0) return;
-  WeightRow change{};
+  std::array<double, feature_point_count> change{};
   const double off_edges = share_off_edges(row);
   for (std::size_t a = 0; a < count; ++a) {
     const std::size_t i = ids[a];
@@ -134,19 +132,18 @@ void WeightPrior::correct(WeightRow& row, const glm::dvec3& position, const Plac
     for (double& amount : amounts) amount = shares[a] * amount * off_edges;
     for (const Correction& c : of_offsets) change[c.point] += amounts[c.column - first_axis] * c.factor;
   }
-  double corrected = 0.0;
-  for (std::size_t id = 0; id < row.size(); ++id) {
-    double& w = row[id];
-    if (places[id].vertex == nowhere || (w == 0.0 && change[id] == 0.0)) continue;  // so most points
-    if (change[id] >= 0.0) {
-      w += change[id];
-    } else if (w > 0.0) {
-      w *= w / (w - change[id]);
+  for (std::size_t id = 0; id < change.size(); ++id) {
+    const double more = change[id];
+    if (more == 0.0 || places[id].vertex == nowhere || (more < 0.0 && row[id] == 0.0)) continue;
+    double& w = row.at(id);
+    if (more > 0.0) {
+      w += more;
+    } else {
+      w *= w / (w - more);
     }
-    corrected += w;
   }
-  if (corrected <= 1.0) return;
-  for (double& w : row) w /= corrected;
+  const double corrected = sum_of(row);
+  if (corrected > 1.0) row.for_each([&](std::size_t, double& w) { w /= corrected; });
 }
 
 const WeightPrior& trained_weight_prior() {

@@ -3,21 +3,47 @@
 #include <array>
 #include <cstddef>
 
-#include "core/types/feature_point_id.h"
+#include "core/parametrize/slot_set.h"
 
 namespace semblante {
 
-/// Weights of all feature points at one vertex.
-using WeightRow = std::array<double, feature_point_count>;
-
-/// Four sums side by side: additions need not wait for each other.
-inline double sum_of(const WeightRow& row) {
-  static_assert(feature_point_count % 4 == 0);
-  std::array<double, 4> sums{};
-  for (std::size_t id = 0; id < row.size(); id += 4) {
-    for (std::size_t k = 0; k < 4; ++k) sums[k] += row[id + k];
+/// Weights of all feature points at one vertex. Few are not zero: a list of those that may be spares loops over all.
+class WeightRow {
+ public:
+  [[nodiscard]] double operator[](std::size_t id) const { return weights_[id]; }
+  /// For writing.
+  [[nodiscard]] double& at(std::size_t id) {
+    listed_.insert(id);
+    return weights_[id];
   }
-  return (sums[0] + sums[1]) + (sums[2] + sums[3]);
+  /// Calls `visit(id, weight)`, in rising order of ids, for all weights that are not zero and perhaps for zeros.
+  template <class Visit>
+  void for_each(Visit visit) const {
+    listed_.for_each([&](std::size_t id) { visit(id, weights_[id]); });
+  }
+  /// The same with weights that `visit` may change.
+  template <class Visit>
+  void for_each(Visit visit) {
+    listed_.for_each([&](std::size_t id) { visit(id, weights_[id]); });
+  }
+  void scale(double factor) {
+    for_each([&](std::size_t, double& w) { w *= factor; });
+  }
+  void clear() {
+    for_each([](std::size_t, double& w) { w = 0.0; });
+    listed_ = {};
+  }
+  [[nodiscard]] bool operator==(const WeightRow& other) const { return weights_ == other.weights_; }
+
+ private:
+  std::array<double, feature_point_count> weights_{};
+  SlotSet listed_;
+};
+
+inline double sum_of(const WeightRow& row) {
+  double sum = 0.0;
+  row.for_each([&](std::size_t, double w) { sum += w; });
+  return sum;
 }
 
 }  // namespace semblante

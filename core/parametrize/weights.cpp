@@ -58,10 +58,11 @@ WeightTable<double> part_weights(const Surface& surface, const PointDistances& d
                                  const std::vector<SlotSet>& regions) {
   const std::vector<std::vector<Neighbor>> neighbors = neighbors_of_points(distances, regions);
   WeightTable<double> table;
+  std::vector<double> row;
   for (std::size_t m = 0; m < distances.members.size(); ++m) {
     const SurfaceVertexId vertex = distances.members[m];
     const glm::dvec3& p = surface.positions[vertex.value()];
-    const std::span<const double> to_points = distances.of_member(m);
+    const std::span<const double> to_points = distances.of_member(m, row);
     regions[m].for_each([&](std::size_t i) {
       const SurfacePoint& point = distances.points[i];
       const std::optional<double> reach = reach_towards(p, point.position, neighbors[i]);

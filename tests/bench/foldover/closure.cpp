@@ -54,10 +54,11 @@ std::vector<double> nearest(const Head& head, const std::vector<const char*>& na
     }
   }
   std::vector<double> result(head.surface.vertex_count(), infinite);
+  std::vector<double> row;
   for (std::uint32_t p = 0; p < head.surface.part_count(); ++p) {
     const PointDistances distances = measure_distances(head.surface, PartId(p), points);
     for (std::size_t m = 0; m < distances.members.size(); ++m) {
-      for (const double d : distances.of_member(m)) {
+      for (const double d : distances.of_member(m, row)) {
         double& least = result[distances.members[m].value()];
         least = std::min(least, d);
       }

@@ -158,8 +158,9 @@ class Fit {
     lesson.products.resize(all.rows(), static_cast<Eigen::Index>(pairs_.size()));
     std::vector<double> off_edges;
     for (Eigen::Index m = 0; m < all.rows(); ++m) {
-      WeightRow row{};
-      for (std::size_t id = 0; id < row.size(); ++id) row[id] = lesson.rows(m, static_cast<Eigen::Index>(id));
+      WeightRow row;
+      for (std::size_t id = 0; id < feature_point_count; ++id)
+        row.at(id) = lesson.rows(m, static_cast<Eigen::Index>(id));
       off_edges.push_back(WeightPrior::share_off_edges(row));
     }
     for (std::size_t p = 0; p < pairs_.size(); ++p) {

@@ -35,8 +35,9 @@ double leak(const ExpressionStudy& study, const Shares& shares, std::initializer
   const auto moved = slots_of(study, moved_names);
   const auto still = slots_of(study, still_names);
   double worst = 0.0;
+  std::vector<double> row;
   for (std::size_t m = 0; m < study.member_count(); ++m) {
-    const auto distances = study.distances.of_member(m);
+    const auto distances = study.distances.of_member(m, row);
     const auto nearest = [&](const std::vector<std::size_t>& slots) {
       double least = std::numeric_limits<double>::infinity();
       for (const std::size_t s : slots) least = std::min(least, distances[s]);

@@ -16,29 +16,41 @@ using ::testing::IsEmpty;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// One ordinary vertex P at the origin and points where a test wants them, at distances it makes up.
+/// One ordinary vertex P at the origin and points where a test wants them, each at the end of a step whose length the
+/// test makes up; no step leads to those at an infinite distance.
 class OneVertex {
  public:
+  OneVertex() { surface_.positions = {glm::dvec3(0.0)}; }
   void add(std::string_view name, const glm::dvec3& position, double distance) {
-    distances_.points.push_back({testing::fp(name), SurfaceVertexId(1), position});
-    to_points_.push_back(distance);
+    const SurfaceVertexId vertex(static_cast<std::uint32_t>(surface_.positions.size()));
+    points_.push_back({testing::fp(name), vertex, position});
+    surface_.positions.push_back(position);
+    if (distance != infinite) surface_.steps.push_back({distance, vertex});
   }
   [[nodiscard]] std::vector<std::string> region() {
-    const std::vector<SurfaceVertexId> members = {SurfaceVertexId(0)};
-    distances_.members = members;
-    distances_.to_members = make_distance_rows(to_points_.size());
-    std::copy(to_points_.begin(), to_points_.end(), distances_.to_members.get());
-    Surface surface;
-    surface.positions = {glm::dvec3(0.0), glm::dvec3(100.0)};
+    const auto to_points = static_cast<std::uint32_t>(surface_.steps.size());
+    surface_.step_offsets = {0, to_points};
+    for (std::uint32_t s = 0; s < surface_.positions.size(); ++s) {
+      surface_.part_members.emplace_back(s);
+      surface_.part_of.emplace_back(0);
+      if (s == 0) continue;
+      for (std::uint32_t k = 0; k < to_points; ++k) {
+        const double length = surface_.steps[k].length;
+        if (surface_.steps[k].to.value() == s) surface_.steps.push_back({length, SurfaceVertexId(0)});
+      }
+      surface_.step_offsets.push_back(static_cast<std::uint32_t>(surface_.steps.size()));
+    }
+    surface_.part_offsets = {0, static_cast<std::uint32_t>(surface_.positions.size())};
+    const PointDistances distances = measure_distances(surface_, PartId(0), points_);
     std::vector<std::string> names;
-    influence_regions(surface, distances_)[0].for_each(
-        [&](std::size_t slot) { names.push_back(to_string(distances_.points[slot].id)); });
+    influence_regions(surface_, distances)[0].for_each(
+        [&](std::size_t slot) { names.push_back(to_string(points_[slot].id)); });
     return names;
   }
 
  private:
-  PointDistances distances_;
-  std::vector<double> to_points_;
+  Surface surface_;
+  std::vector<SurfacePoint> points_;
 };
 
 TEST(InfluenceRegion, PointBeyondANearerOne_IsCutOff) {

@@ -1,7 +1,5 @@
 #include "core/parametrize/weight_prior.h"
 
-#include <numeric>
-
 #include <gtest/gtest.h>
 
 #include "tests/support/meshes.h"
@@ -18,8 +16,8 @@ WeightPrior::Places all_apart() {
 }
 
 WeightRow row_of(std::initializer_list<std::pair<const char*, double>> weights) {
-  WeightRow row{};
-  for (const auto& [name, weight] : weights) row[id(name)] = weight;
+  WeightRow row;
+  for (const auto& [name, weight] : weights) row.at(id(name)) = weight;
   return row;
 }
 
@@ -28,8 +26,6 @@ WeightRow corrected(const WeightPrior& prior, WeightRow row, const WeightPrior::
   prior.correct(row, position, places);
   return row;
 }
-
-double sum_of(const WeightRow& row) { return std::accumulate(row.begin(), row.end(), 0.0); }
 
 TEST(WeightPrior, WithoutATableChangesNothing) {
   const WeightRow row = row_of({{"4.1", 0.5}, {"4.3", 0.3}});
@@ -106,7 +102,7 @@ TEST(WeightPrior, KeepsWeightsPositiveAndSumsAtMostOne) {
   const WeightRow row = corrected(WeightPrior{table}, row_of({{"4.1", 0.5}, {"4.3", 0.5}}));
   EXPECT_LT(row[id("4.1")], 0.1);
   EXPECT_GT(row[id("4.1")], 0.0);
-  for (const double w : row) EXPECT_GE(w, 0.0);
+  row.for_each([](std::size_t, double w) { EXPECT_GE(w, 0.0); });
   EXPECT_NEAR(sum_of(row), 1.0, 1e-12);
 }
 
