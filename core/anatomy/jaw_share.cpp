@@ -19,16 +19,6 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// Calls `look` with the position of each vertex of the teeth parts of one row, other than `except`.
-template <class Look>
-void for_each_tooth(const Surface& surface, std::span<const Part> parts, PartRole row, PartId except,
-                    const Look& look) {
-  for (std::uint32_t p = 0; p < parts.size(); ++p) {
-    if (parts[p].role != row || PartId(p) == except) continue;
-    for (const SurfaceVertexId v : surface.members_of(PartId(p))) look(surface.positions[v.value()]);
-  }
-}
-
 struct Box {
   glm::dvec3 low{infinite}, high{-infinite};
 
@@ -39,30 +29,51 @@ struct Box {
   [[nodiscard]] bool is_within(const glm::dvec3& p, double distance) const {
     return glm::all(glm::greaterThan(p, low - distance)) && glm::all(glm::lessThan(p, high + distance));
   }
+  [[nodiscard]] bool is_within(const Box& other, double distance) const {
+    return glm::all(glm::greaterThan(other.high, low - distance)) &&
+           glm::all(glm::lessThan(other.low, high + distance));
+  }
 };
 
+bool is_teeth(const Part& part) { return part.role == PartRole::upper_teeth || part.role == PartRole::lower_teeth; }
+
+/// By part: the boxes of teeth and tongues.
+std::vector<Box> boxes_in_mouth(const Surface& surface, std::span<const Part> parts) {
+  std::vector<Box> boxes(parts.size());
+  for (std::uint32_t p = 0; p < parts.size(); ++p) {
+    if (!is_teeth(parts[p]) && parts[p].role != PartRole::tongue) continue;
+    for (const SurfaceVertexId v : surface.members_of(PartId(p))) boxes[p].add(surface.positions[v.value()]);
+  }
+  return boxes;
+}
+
 /// The vertices of a part that hold a row of teeth; empty if the row is not in this part.
-std::vector<SurfaceVertexId> sockets_of(const Surface& surface, std::span<const Part> parts, PartId part,
-                                        PartRole row) {
+std::vector<SurfaceVertexId> sockets_of(const Surface& surface, std::span<const Part> parts, std::span<const Box> boxes,
+                                        PartId part, PartRole row) {
   const std::span<const SurfaceVertexId> members = surface.members_of(part);
-  double low = infinite;
-  double high = -infinite;
+  std::vector<PartId> teeth;
+  Box of_row;
   std::size_t count = 0;
-  for_each_tooth(surface, parts, row, part, [&](const glm::dvec3& t) {
-    low = std::min(low, t.x);
-    high = std::max(high, t.x);
-    ++count;
-  });
+  for (std::uint32_t p = 0; p < parts.size(); ++p) {
+    if (parts[p].role != row || PartId(p) == part) continue;
+    teeth.emplace_back(p);
+    of_row.add(boxes[p].low);
+    of_row.add(boxes[p].high);
+    count += surface.members_of(PartId(p)).size();
+  }
   if (count == 0) return {};
-  Box box;
-  for (const SurfaceVertexId v : members) box.add(surface.positions[v.value()]);
+  const Box& box = boxes[part.value()];
   // About two millimetres: a row of teeth is about 60 mm wide.
-  const double touch = 0.04 * (high - low);
+  const double touch = 0.04 * (of_row.high.x - of_row.low.x);
   // Most teeth are far from most parts: only those at the part's box are searched for.
   std::vector<glm::dvec3> near;
-  for_each_tooth(surface, parts, row, part, [&](const glm::dvec3& t) {
-    if (box.is_within(t, touch)) near.push_back(t);
-  });
+  for (const PartId tooth : teeth) {
+    if (!box.is_within(boxes[tooth.value()], touch)) continue;
+    for (const SurfaceVertexId v : surface.members_of(tooth)) {
+      const glm::dvec3& t = surface.positions[v.value()];
+      if (box.is_within(t, touch)) near.push_back(t);
+    }
+  }
   const std::size_t enough = (count + 9) / 10;
   if (near.size() < enough) return {};
   // Likewise only vertices at the box of these teeth: most of the skin of a face is far from them.
@@ -173,20 +184,19 @@ Rows rows_of_only_part(const Surface& surface, PartId part, std::span<const Surf
   return rows;
 }
 
-bool is_teeth(const Part& part) { return part.role == PartRole::upper_teeth || part.role == PartRole::lower_teeth; }
-
 }  // namespace
 
 std::vector<MouthShare> share_of_jaw(const Surface& surface, std::span<const Part> parts,
                                      std::span<const SurfacePoint> points) {
   std::vector<MouthShare> shares(surface.vertex_count());
+  const std::vector<Box> boxes = boxes_in_mouth(surface, parts);
   const bool has_one_part_of_teeth = std::count_if(parts.begin(), parts.end(), is_teeth) == 1;
   for (std::uint32_t p = 0; p < parts.size(); ++p) {
     const PartId part(p);
     const PartRole role = parts[p].role;
     if (role != PartRole::tongue && role != PartRole::lower_teeth && role != PartRole::upper_teeth) continue;
-    std::vector<SurfaceVertexId> upper = sockets_of(surface, parts, part, PartRole::upper_teeth);
-    std::vector<SurfaceVertexId> lower = sockets_of(surface, parts, part, PartRole::lower_teeth);
+    std::vector<SurfaceVertexId> upper = sockets_of(surface, parts, boxes, part, PartRole::upper_teeth);
+    std::vector<SurfaceVertexId> lower = sockets_of(surface, parts, boxes, part, PartRole::lower_teeth);
     if (has_one_part_of_teeth && is_teeth(parts[p])) {
       Rows rows = rows_of_only_part(surface, part, points);
       upper = std::move(rows.upper);

@@ -18,8 +18,13 @@ void count_triangles(const Model& model, const Surface& surface, std::vector<Par
   }
   for (std::size_t i = 0; i < model.primitives.size(); ++i) {
     const Primitive& primitive = model.primitives[i];
+    std::uint32_t last = 0;
+    std::uint32_t* count = nullptr;  // of the last triangle's part, which is the next one's as a rule
     for (std::uint32_t t = 0; t < primitive.triangle_count; ++t) {
-      ++of_primitive[part_of(model.triangles[primitive.first_triangle + t])][i];
+      const std::uint32_t part = part_of(model.triangles[primitive.first_triangle + t]);
+      if (count == nullptr || part != last) count = &of_primitive[part][i];
+      last = part;
+      ++*count;
     }
   }
   for (std::size_t p = 0; p < shapes.size(); ++p) {
