@@ -134,7 +134,7 @@ SiteKriging::SiteKriging(const Surface& surface, const PointDistances& distances
       kriging_(covariances(sites_, unit, kernel), sites_.size()),
       near_block_((distances.members.size() + block_size - 1) / block_size) {}
 
-const std::vector<std::size_t>& SiteKriging::near_block(std::size_t block) {
+const std::vector<SiteKriging::NearSite>& SiteKriging::near_block(std::size_t block) {
   if (near_block_[block]) return *near_block_[block];
   glm::dvec3 low(std::numeric_limits<double>::infinity());
   glm::dvec3 high(-low);
@@ -145,10 +145,10 @@ const std::vector<std::size_t>& SiteKriging::near_block(std::size_t block) {
     low = glm::min(low, p);
     high = glm::max(high, p);
   }
-  std::vector<std::size_t>& near = near_block_[block].emplace();
+  std::vector<NearSite>& near = near_block_[block].emplace();
   for (std::size_t s = 0; s < sites_.size(); ++s) {
     const glm::dvec3& p = sites_[s].position;
-    if (glm::distance(p, glm::clamp(p, low, high)) < reach_) near.push_back(s);
+    if (glm::distance(p, glm::clamp(p, low, high)) < reach_) near.push_back({p, s});
   }
   return near;
 }
@@ -159,11 +159,11 @@ std::span<const SiteKriging::Term> SiteKriging::at(std::size_t member) {
   candidates_.clear();
   to_target_.clear();
   terms_.clear();
-  for (const std::size_t s : near_block(member / block_size)) {
-    const KrigingSite& site = sites_[s];
-    const glm::dvec3 away = p - site.position;
+  for (const NearSite& near : near_block(member / block_size)) {
+    const glm::dvec3 away = p - near.position;
     const double squared = glm::dot(away, away);
     if (squared >= reach_ * reach_) continue;
+    const KrigingSite& site = sites_[near.site];
     if (vertex == site.vertex || (site.slot && distances_.at(*site.slot, member) == 0.0)) {
       terms_.assign(1, {&site, 1.0});
       return terms_;
@@ -174,7 +174,7 @@ std::span<const SiteKriging::Term> SiteKriging::at(std::size_t member) {
     const double share = along <= trusted_detour * straight ? 1.0 : trust(along / straight);
     const double covariance = table_.at(straight / unit_) * share;
     if (!(covariance > kernel_.least)) continue;
-    candidates_.push_back(s);
+    candidates_.push_back(near.site);
     to_target_.push_back((covariance - kernel_.least) / (1.0 - kernel_.least));
   }
   if (candidates_.empty()) return terms_;

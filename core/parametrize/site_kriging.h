@@ -78,8 +78,12 @@ class SiteKriging {
   [[nodiscard]] std::span<const KrigingSite> sites() const { return sites_; }
 
  private:
+  struct NearSite {
+    glm::dvec3 position;  ///< of the site: most are looked at no further
+    std::size_t site;
+  };
   /// The sites within reach of the box of a block of members; by far most are out.
-  const std::vector<std::size_t>& near_block(std::size_t block);
+  const std::vector<NearSite>& near_block(std::size_t block);
 
   const Surface& surface_;
   const PointDistances& distances_;
@@ -89,7 +93,7 @@ class SiteKriging {
   KernelTable table_;
   double reach_;  ///< model units
   NonNegativeKriging kriging_;
-  std::vector<std::optional<std::vector<std::size_t>>> near_block_;  ///< those that were asked for
+  std::vector<std::optional<std::vector<NearSite>>> near_block_;  ///< those that were asked for
   std::vector<std::size_t> candidates_;
   std::vector<double> to_target_;
   std::vector<Term> terms_;
