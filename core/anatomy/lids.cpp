@@ -21,12 +21,15 @@ constexpr double greatest_slit = 2.4;
 constexpr double closed_slit = 0.05;
 constexpr double open_slit = 0.3;
 
+/// By how much the front of a ball may differ about its axis and count as round: less than lids' clearance from it.
+constexpr double unround = 0.01;
+
 /// The angle of a place about the line through the pivot along x, from straight ahead upwards.
 double angle_of(const glm::dvec3& p, const glm::dvec3& pivot) { return std::atan2(p.y - pivot.y, p.z - pivot.z); }
 
 /// Places on the edges of the eyeball, as coordinate of the profile and distance from the pivot.
 struct Profile {
-  std::array<double, Lids::ball_places> sum{}, weight{};
+  std::array<double, Lids::ball_places> sum{}, weight{}, greatest{};
 
   void add(const glm::dvec3& d, const glm::dvec3& pole) {
     const double distance = glm::length(d);
@@ -39,10 +42,11 @@ struct Profile {
       const double share = 1.0 - std::abs(at - static_cast<double>(place));
       sum[place] += share * distance;
       weight[place] += share;
+      if (share >= 0.5) greatest[place] = std::max(greatest[place], distance);
     }
   }
 
-  /// The mean distance at each place; places that no edge crosses are interpolated. All zero for what is no ball: a
+  /// The distance at each place; places that no edge crosses are interpolated. All zero for what is no ball: a
   /// disc or a shell ends before the equator.
   [[nodiscard]] std::array<float, Lids::ball_places> radii() const {
     std::array<float, Lids::ball_places> result{};
@@ -57,9 +61,17 @@ struct Profile {
       const std::size_t b = after == known.end() ? known.back() : *after;
       const std::size_t a = after == known.begin() ? known.front() : b == k ? k : *(after - 1);
       const double t = a == b ? 0.0 : (static_cast<double>(k) - static_cast<double>(a)) / static_cast<double>(b - a);
-      result[k] = static_cast<float>(sum[a] / weight[a] + t * (sum[b] / weight[b] - sum[a] / weight[a]));
+      result[k] = static_cast<float>(radius(a) + t * (radius(b) - radius(a)));
     }
     return result;
+  }
+
+ private:
+  /// The mean, or more where the front is not round about the axis: lids clear what stands out. At the sides the mean
+  /// alone counts: corners of lids lie there, which would be moved by an eyeball that is wider than high.
+  [[nodiscard]] double radius(std::size_t place) const {
+    const double mean = sum[place] / weight[place];
+    return place < Lids::ball_places / 2 ? std::max(mean, (1.0 - unround) * greatest[place]) : mean;
   }
 };
 

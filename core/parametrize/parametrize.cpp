@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string>
 
+#include <glm/geometric.hpp>
+
 #include "core/anatomy/iris.h"
 #include "core/anatomy/joined_rims.h"
 #include "core/anatomy/lids.h"
@@ -82,7 +84,29 @@ void stop_joined_lids(const Model& model, const Surface& surface, const std::vec
   rig.lids[eye]->opening *= static_cast<float>(std::max(share_before_fold(model, rig, heights), least));
 }
 
-/// The vertices of lids: those that follow the points of one eye's lids. A vertex that follows both eyes is skin.
+/// Skin whose distance from the ball is below this share of the ball's radius can be pushed into it.
+constexpr double near_ball = 0.3;
+/// What follows a corner of the eye by this share stays as that does: it would be lifted as the ball turns.
+constexpr float of_corner = 0.5F;
+
+/// Whether a vertex lies before the front of the ball of its eye, not at a corner of the eye.
+bool lies_before_ball(const glm::dvec3& position, std::uint32_t file_vertex, const Rig& rig, std::size_t eye) {
+  const Lids& lids = *rig.lids[eye];
+  const double radius = *std::max_element(lids.ball.begin(), lids.ball.end());
+  const glm::dvec3 from = position - glm::dvec3(eye == 0 ? rig.left_eye_pivot : rig.right_eye_pivot);
+  if (!(from.z > 0.0 && glm::length(from) < (1.0 + near_ball) * radius)) return false;
+  const auto row = rig.influence.points_of(file_vertex);
+  const auto weights = rig.influence.weights_of(file_vertex);
+  for (const std::string_view corner : mpeg4::openings[1 + eye].corners) {
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      if (row[k] == *parse_feature_point(corner) && weights[k] >= of_corner) return false;
+    }
+  }
+  return !row.empty();
+}
+
+/// The vertices of lids: those that follow the points of one eye's lids, and skin that lies before its ball: a cheek or
+/// a brow that moves does not pass through the ball either. A vertex that follows the lids of both eyes is skin.
 void find_rolling_lids(const Model& model, const Surface& surface, const std::vector<SurfacePoint>& points, Rig& rig,
                        std::vector<RigidMotion>& motion) {
   static const std::array<std::array<FeaturePointId, 2>, 2> lid_points = {
@@ -99,7 +123,9 @@ void find_rolling_lids(const Model& model, const Surface& surface, const std::ve
       const bool follows = std::any_of(row.begin(), row.end(), [&](FeaturePointId id) {
         return id == lid_points[eye][0] || id == lid_points[eye][1];
       });
-      if (!follows || motion[s] != RigidMotion::none) continue;
+      const bool lies = rig.parts[surface.part_of[s].value()].role == PartRole::skin &&
+                        lies_before_ball(surface.positions[s], surface.file_vertex_of[s].value(), rig, eye);
+      if (!(follows || lies) || motion[s] != RigidMotion::none) continue;
       const bool is_of_both = lids[s] != RigidMotion::none;
       lids[s] = is_of_both ? RigidMotion::none : eye == 0 ? RigidMotion::left_lids : RigidMotion::right_lids;
     }

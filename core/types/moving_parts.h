@@ -18,7 +18,7 @@ enum class RigidMotion : std::uint8_t {
   right_eye,
   left_iris,   ///< rotates with the eye, and moves outwards when the pupil grows
   right_iris,  ///< likewise
-  left_lids,   ///< rolls on the eyeball with its weights of 3.1 and 3.3
+  left_lids,   ///< rolls on the eyeball with its weights of 3.1 and 3.3 (0: it is only kept before the ball)
   right_lids,  ///< likewise of 3.2 and 3.4
   tongue_least = 128,
   tongue = 255,  ///< the whole roll

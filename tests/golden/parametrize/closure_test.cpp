@@ -218,6 +218,50 @@ TEST(PBM, ShutsTheLipsAndStopsThere) {
   }
 }
 
+/// Skin before an eyeball, and how deep it is in the ball: the least distance from the pivot as share of the ball's
+/// least radius.
+struct SkinOnBall {
+  std::vector<std::uint32_t> vertices;
+  double radius = 0.0;
+};
+
+SkinOnBall skin_on_ball(const PosedFace& face, std::size_t eye) {
+  SkinOnBall skin;
+  const auto& lids = face.rig().lids[eye];
+  if (!lids) return skin;
+  skin.radius = *std::min_element(lids->ball.begin(), lids->ball.end());
+  const glm::vec3 pivot = eye == 0 ? face.rig().left_eye_pivot : face.rig().right_eye_pivot;
+  const auto& positions = face.head().model.positions;
+  for (std::uint32_t v = 0; v < positions.size(); ++v) {
+    const double distance = glm::distance(positions[v], pivot);
+    if (face.role_of(v) == PartRole::skin && positions[v].z > pivot.z && distance > skin.radius &&
+        distance < 1.2 * skin.radius)
+      skin.vertices.push_back(v);
+  }
+  return skin;
+}
+
+// As on eyes that reach down to the cheeks: the cheek went through the lower lid, and the ball was seen in it.
+TEST(SkinOnTheBall, StaysBeforeItWhateverMovesIt) {
+  std::size_t measured = 0;
+  for (const bench::Head& head : bench::heads_with_lids()) {
+    const PosedFace face(head, WeightMethod::smooth);
+    for (const auto& frame : {bench::frame_of({{41, 600}, {42, 600}}), bench::frame_of({{33, -400}, {34, -400}}),
+                              bench::frame_of(0, 1), bench::frame_of(0, 5)}) {
+      const std::vector<glm::vec3> posed = face.pose(frame);
+      for (const std::size_t eye : {0U, 1U}) {
+        const SkinOnBall skin = skin_on_ball(face, eye);
+        const glm::vec3 pivot = eye == 0 ? face.rig().left_eye_pivot : face.rig().right_eye_pivot;
+        for (const std::uint32_t v : skin.vertices) {
+          EXPECT_GE(glm::distance(posed[v], pivot), 0.995 * skin.radius) << head.name << " " << v;
+          ++measured;
+        }
+      }
+    }
+  }
+  EXPECT_GT(measured, 0U);
+}
+
 TEST(LipGaps, AreWhatIsOpenAtRest) {
   for (const bench::Head& head : heads()) {
     const PosedFace face(head, WeightMethod::smooth);
