@@ -19,8 +19,17 @@ std::vector<Companion> folds_below_near_brows(const FeaturePointSet& points);
 /// there.
 std::vector<Companion> cheeks_beside_near_corners(const FeaturePointSet& points);
 
+/// The folds of lids (3.13, 3.14, 3.9, 3.10) that go along with the near edge of their lid (3.1 to 3.4), likewise: the
+/// share grows from zero, where the fold is about as far from the edge as on faces with marked folds. A fold at the
+/// edge itself, as proposed on eyes that have none, would tear the lid when the edge moves without it.
+std::vector<Companion> folds_beside_near_edges(const FeaturePointSet& points);
+
+/// The edges and folds of lower lids (3.3, 3.4, 3.9, 3.10) that go along with a near cheek bone (5.3, 5.4), likewise:
+/// below an eye that reaches down to it, a cheek that rises would be pushed through lid and eyeball.
+std::vector<Companion> lids_above_near_cheek_bones(const FeaturePointSet& points);
+
 /// The entries of the table of companions (core/tables/data/companions.json) whose two points are marked, the folds
-/// below near brows, and the cheeks beside near corners: these follow by their share what the table leaves.
+/// below near brows, and those beside near points: these follow by their share what the table leaves.
 std::vector<Companion> companions_of(const FeaturePointSet& points);
 
 /// For semblante_rig.companion.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -29,6 +30,23 @@ void press_less(std::vector<Displacement>& displacements, float share) {
     const bool is_lower = std::find(mpeg4::mouth.lower_flesh.begin(), mpeg4::mouth.lower_flesh.end(), name) !=
                           mpeg4::mouth.lower_flesh.end();
     if ((is_upper && d.value.y < 0.0F) || (is_lower && d.value.y > 0.0F)) d.value.y *= share;
+  }
+}
+
+/// `unit` at most `share` of `other`, unless it was given by hand.
+void limit(Fapu& fapu, FapuUnit unit, double share, FapuUnit other) {
+  auto& value = fapu.value[static_cast<std::size_t>(unit)];
+  if (!value || !fapu[other] || fapu.origin[static_cast<std::size_t>(unit)] == FapuOrigin::user) return;
+  value = std::min(*value, share * *fapu[other]);
+}
+
+/// Where the set moves both, a follower moves by its share as its leader.
+void follow(std::vector<Displacement>& displacements, std::span<const Companion> followers) {
+  for (const Companion& follower : followers) {
+    Displacement* const near = find(displacements, follower.point);
+    const Displacement* const leader = find(displacements, follower.leader);
+    if (near == nullptr || leader == nullptr) continue;
+    near->value += follower.share * (leader->value - near->value);
   }
 }
 
@@ -89,12 +107,11 @@ void follow_near_brows(std::vector<Displacement>& displacements, const FeaturePo
 }
 
 void follow_near_corners(std::vector<Displacement>& displacements, const FeaturePointSet& points) {
-  for (const Companion& follower : cheeks_beside_near_corners(points)) {
-    Displacement* const cheek = find(displacements, follower.point);
-    const Displacement* const corner = find(displacements, follower.leader);
-    if (cheek == nullptr || corner == nullptr) continue;
-    cheek->value += follower.share * (corner->value - cheek->value);
-  }
+  follow(displacements, cheeks_beside_near_corners(points));
+}
+
+void follow_near_edges(std::vector<Displacement>& displacements, const FeaturePointSet& points) {
+  follow(displacements, folds_beside_near_edges(points));
 }
 
 void keep_lids_shut(std::vector<Displacement>& displacements) {
@@ -120,18 +137,27 @@ std::vector<Displacement> articulated(const DisplacementSet& set, double articul
   return result;
 }
 
+Fapu units_of_library(const Fapu& fapu) {
+  Fapu result = fapu;
+  limit(result, FapuUnit::ens, most_nose_of_eyes, FapuUnit::es);
+  limit(result, FapuUnit::mns, most_lip_of_mouth, FapuUnit::mw);
+  return result;
+}
+
 ModelDisplacements on_face(const DisplacementSet& set, const Fapu& fapu, const FeaturePointSet& points,
                            const std::optional<LipGaps>& gaps, double articulation) {
   const std::vector<Displacement> displacements = articulated(set, articulation);
-  ModelDisplacements result = to_model_units({set.name, displacements}, fapu);
+  const Fapu units = set.of_library ? units_of_library(fapu) : fapu;
+  ModelDisplacements result = to_model_units({set.name, displacements}, units);
   if (set.meets_upper_teeth) reach_upper_teeth(result.displacements, points);
   if (set.of_library) {
     follow_near_brows(result.displacements, points);
+    follow_near_edges(result.displacements, points);
     follow_near_corners(result.displacements, points);
     if (fapu.origin[static_cast<std::size_t>(FapuUnit::irisd)] == FapuOrigin::closed_eyes)
       keep_lids_shut(result.displacements);
   }
-  if (const auto mns = fapu[FapuUnit::mns]) stop_at_contact(result.displacements, points, 1024.0 * *mns, gaps);
+  if (const auto mns = units[FapuUnit::mns]) stop_at_contact(result.displacements, points, 1024.0 * *mns, gaps);
   return result;
 }
 

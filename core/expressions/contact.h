@@ -36,16 +36,28 @@ void follow_near_brows(std::vector<Displacement>& displacements, const FeaturePo
 /// both: the library's sets are made for faces whose cheeks are far from the corners.
 void follow_near_corners(std::vector<Displacement>& displacements, const FeaturePointSet& points);
 
+/// Moves a fold of a lid partly as the near edge (`folds_beside_near_edges`), where the set moves both, likewise.
+void follow_near_edges(std::vector<Displacement>& displacements, const FeaturePointSet& points);
+
 /// Lids do not open (3.1 and 3.2 not up, 3.3 and 3.4 not down): eyes that are closed on the neutral face stay so in
 /// expressions, which would open them to a slit. FAPs 19 to 22 open them.
 void keep_lids_shut(std::vector<Displacement>& displacements);
+
+/// The units in which a face wears the library's sets, whose values are those of people: a mouth that is far below the
+/// nose but narrow, as at the end of a muzzle, would smile higher than it is wide, and brows above a long muzzle would
+/// fold the forehead. ENS is at most `most_nose_of_eyes` of ES, MNS at most `most_lip_of_mouth` of MW; units given by
+/// hand stay as they are.
+Fapu units_of_library(const Fapu& fapu);
+/// The greatest of people: eyes to nose 52 mm for pupils 58 mm apart, nose to mouth 27 mm for a mouth 45 mm wide.
+inline constexpr double most_nose_of_eyes = 0.9;
+inline constexpr double most_lip_of_mouth = 0.6;
 
 /// The set with its opening of the jaw multiplied by `articulation`, at the points that it moves. FAPU units.
 std::vector<Displacement> articulated(const DisplacementSet& set, double articulation);
 
 /// A displacement set on one head: in model units, articulated, scaled to meet the teeth if the set does, stopped at
-/// contact. If it is of the library, folds of lids go along with near brows, cheeks with near corners of the mouth, and
-/// closed eyes stay closed.
+/// contact. If it is of the library, its units are `units_of_library`, folds of lids go along with near brows
+/// and edges, cheeks with near corners of the mouth, and closed eyes stay closed.
 ModelDisplacements on_face(const DisplacementSet& set, const Fapu& fapu, const FeaturePointSet& points,
                            const std::optional<LipGaps>& gaps = std::nullopt, double articulation = usual_articulation);
 

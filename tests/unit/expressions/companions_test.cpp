@@ -76,7 +76,7 @@ TEST(FollowNearBrows, IsOfTheLibraryAlone) {
   const std::vector<Displacement> displacements = {{testing::fp("3.13"), {0.0F, -0.1F, 0.0F}},
                                                    {testing::fp("4.3"), {0.0F, -1.0F, 0.0F}}};
   Fapu fapu;
-  fapu.value.fill(1.0);
+  fapu.value = {1.0, 1.25, 1.0, 0.5, 1.0};
   DisplacementSet set{"anger", displacements};
   EXPECT_FLOAT_EQ(on_face(set, fapu, eye(3.0F, 3.0F)).displacements[0].value.y, -0.1F);
   set.of_library = true;
@@ -130,11 +130,63 @@ TEST(FollowNearCorners, IsOfTheLibraryAlone) {
   const std::vector<Displacement> displacements = {{testing::fp("5.1"), {0.0F, 0.0F, 0.0F}},
                                                    {testing::fp("8.3"), {0.0F, 1.0F, 0.0F}}};
   Fapu fapu;
-  fapu.value.fill(1.0);
+  fapu.value = {1.0, 1.25, 1.0, 1.0, 2.0};
   DisplacementSet set{"joy", displacements};
   EXPECT_EQ(on_face(set, fapu, cheek(0.5F)).displacements[0].value.y, 0.0F);
   set.of_library = true;
   EXPECT_FLOAT_EQ(on_face(set, fapu, cheek(0.5F)).displacements[0].value.y, 0.75F);
+}
+
+float share_between(const FeaturePointSet& points, const char* point, const char* leader) {
+  float share = 0.0F;
+  for (const Companion& c : companions_of(points))
+    share += c.point == testing::fp(point) && c.leader == testing::fp(leader) ? c.share : 0.0F;
+  return share;
+}
+
+/// A left eye ten wide and five open; the folds lie `above` and `below` its edges, the cheek bone 20 below the edge
+/// or `cheek_bone`.
+FeaturePointSet wide_eye(float above, float below, float cheek_bone = 20.0F) {
+  return {{testing::fp("3.1"), VertexId(0), {5.0F, 5.0F, 0.0F}},
+          {testing::fp("3.3"), VertexId(0), {5.0F, 0.0F, 0.0F}},
+          {testing::fp("3.7"), VertexId(0), {10.0F, 2.0F, 0.0F}},
+          {testing::fp("3.9"), VertexId(0), {5.0F, -below, 0.0F}},
+          {testing::fp("3.11"), VertexId(0), {0.0F, 2.0F, 0.0F}},
+          {testing::fp("3.13"), VertexId(0), {5.0F, 5.0F + above, 0.0F}},
+          {testing::fp("5.3"), VertexId(0), {5.0F, -cheek_bone, 0.0F}}};
+}
+
+TEST(FoldsBesideNearEdges, OfPeopleFollowAsTheTableSays) {
+  const float far = share_between(wide_eye(2.0F, 2.25F), "3.13", "3.1");
+  ASSERT_GT(far, 0.3F);
+  EXPECT_TRUE(folds_beside_near_edges(wide_eye(2.0F, 2.25F)).empty());
+  EXPECT_EQ(share_between(wide_eye(2.0F, 2.25F), "3.9", "3.3"), 0.0F);
+}
+
+TEST(FoldsBesideNearEdges, FollowTheMoreTheNearer_AtTheEdgeCompletely) {
+  const float far = share_between(wide_eye(2.0F, 2.25F), "3.13", "3.1");
+  EXPECT_NEAR(share_between(wide_eye(1.0F, 1.125F), "3.13", "3.1"), far + 0.5F * (1.0F - far), 1e-6F);
+  EXPECT_NEAR(share_between(wide_eye(1.0F, 1.125F), "3.9", "3.3"), 0.5F, 1e-6F);
+  EXPECT_NEAR(share_between(wide_eye(0.0F, 0.0F), "3.13", "3.1"), 1.0F, 1e-6F);
+  EXPECT_NEAR(share_between(wide_eye(0.0F, 0.0F), "3.9", "3.3"), 1.0F, 1e-6F);
+}
+
+TEST(FollowNearEdges, MovesAFoldTowardsTheEdgesDisplacement) {
+  std::vector<Displacement> displacements = {{testing::fp("3.3"), {0.0F, 1.0F, 0.0F}},
+                                             {testing::fp("3.9"), {0.0F, 3.0F, 0.0F}}};
+  follow_near_edges(displacements, wide_eye(2.0F, 1.125F));
+  EXPECT_EQ(displacements[0].value.y, 1.0F);
+  EXPECT_NEAR(displacements[1].value.y, 2.0F, 1e-6F);
+}
+
+TEST(LidsAboveNearCheekBones, FollowTheMoreTheNearer_AndOnce) {
+  EXPECT_TRUE(lids_above_near_cheek_bones(wide_eye(2.0F, 2.25F, 6.8F)).empty());
+  EXPECT_NEAR(share_between(wide_eye(2.0F, 2.25F, 3.25F), "3.3", "5.3"), 0.5F, 1e-6F);
+  // The fold is a third of its way from the edge and follows that too: its own share is what is left of 1 - 2.125
+  // / 4.5.
+  const FeaturePointSet near = wide_eye(2.0F, 1.125F, 3.25F);
+  EXPECT_NEAR(share_between(near, "3.9", "3.3"), 0.5F, 1e-6F);
+  EXPECT_NEAR(share_between(near, "3.9", "5.3"), (1.0F - 2.125F / 4.5F) - 0.5F * 0.5F, 1e-6F);
 }
 
 TEST(KeepLidsShut, StopsWhatOpensThemAlone) {

@@ -1,5 +1,8 @@
 #include "core/expressions/contact.h"
 
+#include <algorithm>
+#include <array>
+
 #include <gtest/gtest.h>
 
 namespace semblante {
@@ -180,6 +183,51 @@ TEST(OnFace, IsTheSetInModelUnits_WherePointsAreUnknown) {
     ASSERT_EQ(plain.size(), there.size());
     for (std::size_t i = 0; i < plain.size(); ++i) EXPECT_EQ(plain[i].value, there[i].value);
   }
+}
+
+/// People: the values of heads with known points lie between these.
+TEST(UnitsOfLibrary, OfPeopleAreTheirOwn) {
+  Fapu fapu;
+  for (const std::array<double, 5>& of :
+       {std::array{0.16, 1.0, 0.76, 0.33, 0.79}, std::array{0.16, 1.0, 0.85, 0.30, 0.85},
+        std::array{0.21, 1.0, 0.65, 0.33, 1.00}, std::array{0.18, 1.0, 0.9, 0.48, 0.8}}) {
+    std::copy(of.begin(), of.end(), fapu.value.begin());
+    EXPECT_EQ(units_of_library(fapu).value, fapu.value);
+  }
+}
+
+/// A monkey: a mouth a quarter of the eyes' distance wide, twice as far below the nose.
+TEST(UnitsOfLibrary, OfAMuzzleFollowItsMouthAndEyes) {
+  Fapu fapu;
+  fapu.value = {0.7, 1.0, 1.2, 0.6, 0.3};
+  const Fapu units = units_of_library(fapu);
+  EXPECT_EQ(units[FapuUnit::irisd], 0.7);
+  EXPECT_EQ(units[FapuUnit::ens], most_nose_of_eyes * 1.0);
+  EXPECT_EQ(units[FapuUnit::mns], most_lip_of_mouth * 0.3);
+  EXPECT_EQ(units[FapuUnit::mw], 0.3);
+  // joy draws the corners up by less than half of the way from the middle of the mouth to them: an arc, not a V
+  const auto joy = on_face(expression_library()[1], fapu, {}).displacements;
+  EXPECT_LT(y_of(joy, "2.4") - y_of(joy, "2.3"), 0.5F * 0.5F * 1024.0F * 0.3F);
+  EXPECT_GT(y_of(joy, "2.4"), 0.0F);
+}
+
+TEST(UnitsOfLibrary, GivenByHandStay_AndMissingOnesLimitNothing) {
+  Fapu fapu;
+  fapu.value = {0.7, 1.0, 1.2, 0.6, 0.3};
+  fapu.origin[static_cast<std::size_t>(FapuUnit::mns)] = FapuOrigin::user;
+  EXPECT_EQ(units_of_library(fapu)[FapuUnit::mns], 0.6);
+  fapu.value = {0.7, std::nullopt, 1.2, 0.6, std::nullopt};
+  fapu.origin = {};
+  EXPECT_EQ(units_of_library(fapu).value, fapu.value);
+}
+
+/// What somebody made or measured has the units of the standard.
+TEST(UnitsOfLibrary, AreOfTheLibraryAlone) {
+  Fapu fapu;
+  fapu.value = {0.7, 1.0, 1.2, 0.6, 0.3};
+  const DisplacementSet& joy = expression_library()[1];
+  const auto made = on_face({"joy", joy.displacements}, fapu, {}).displacements;
+  EXPECT_FLOAT_EQ(y_of(made, "2.4"), y_of(to_model_units(joy, fapu).displacements, "2.4"));
 }
 
 }  // namespace
