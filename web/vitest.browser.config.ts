@@ -6,6 +6,7 @@ import { aliases, packagesForTests } from './aliases.ts';
 export default defineConfig({
   resolve: { alias: [...aliases, ...packagesForTests] },
   server: { fs: { allow: ['..'] } },
+  cacheDir: 'node_modules/.vite-browser', // not that of the unit tests, which run at the same time
   test: {
     include: ['../tests/browser/**/*.test.ts'],
     globalSetup: ['../tests/browser/support/prepare.ts'],

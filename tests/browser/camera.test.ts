@@ -91,7 +91,7 @@ describe('camera', () => {
   });
 
   test('Camera_WithoutReducedMotion_Flies', async () => {
-    const studio = await StudioPage.open(browser, `${server.url}/#sample/points`, { width: 900, motion: 'no-preference' });
+    const studio = await StudioPage.open(browser, `${server.url}/#sample/points`, { width: 900, motion: 'no-preference', lively: true });
     await studio.waitForStage('ready');
     await studio.page.getByRole('button', { name: 'All 84' }).click();
     // Choosing and looking are one step of the page: no frame is drawn between.

@@ -11,7 +11,7 @@ import { browser, server, useStudio } from './support/suite.ts';
 
 const folder = mkdtempSync(join(tmpdir(), 'semblante-code-'));
 
-useStudio({ voice: join(buildDir, 'bin/semblante-voice-espeak') });
+useStudio({ demo: false, voice: join(buildDir, 'bin/semblante-voice-espeak') });
 afterAll(async () => {
   rmSync(folder, { recursive: true, force: true });
 });

@@ -10,7 +10,7 @@ import { browser, server, useStudio } from './support/suite.ts';
 
 const hello = join(root, 'protocol/examples/performances/hello.json');
 const voice = join(buildDir, 'bin/semblante-voice-espeak');
-useStudio({ voice });
+useStudio({ demo: false, voice, lively: true });
 
 async function saved(page: Page, act: () => Promise<void>): Promise<{ name: string; bytes: Buffer }> {
   const [download] = await Promise.all([page.waitForEvent('download'), act()]);

@@ -29,7 +29,7 @@ const directions = 64;
 const degree = Math.PI / 180;
 const turn = (ray: number): number => (2 * Math.PI * ray) / directions;
 
-useStudio();
+useStudio({ demo: false });
 
 /** The sample head without the materials of its eyes. */
 function withoutIrises(): Uint8Array<ArrayBuffer> {

@@ -24,7 +24,7 @@ const folder = mkdtempSync(join(tmpdir(), 'semblante-journey-'));
 const avatar = join(folder, 'sample-body.glb');
 let places: Record<string, { position: [number, number, number] }>;
 
-useStudio({ voice: join(buildDir, 'bin/semblante-voice-espeak') });
+useStudio({ demo: false, voice: join(buildDir, 'bin/semblante-voice-espeak') });
 beforeAll(() => {
   execFileSync(join(buildDir, 'bin/semblante-sample-head'), [folder, 'body']);
   ({ points: places } = JSON.parse(readFileSync(join(folder, 'sample-body.fps.json'), 'utf8')) as { points: typeof places });

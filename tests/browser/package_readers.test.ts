@@ -11,7 +11,7 @@ import { patience } from './support/patience.ts';
 import type { FaceReport } from './pages/read_face.ts';
 import { browser, server, useStudio } from './support/suite.ts';
 
-useStudio();
+useStudio({ demo: false });
 
 async function artefact(name: string): Promise<Uint8Array> {
   // Uncompressed: the ETag of a compressed answer carries the coding beside the hash.

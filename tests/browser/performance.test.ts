@@ -11,7 +11,7 @@ const scratch = mkdtempSync(join(tmpdir(), 'semblante-performance-'));
 const faceAlone = [0.3, 0.1, 0.4, 0.8] as const;
 const hello = readFileSync(join(root, 'protocol/examples/performances/hello.json'), 'utf8');
 
-useStudio();
+useStudio({ demo: false });
 afterAll(async () => {
   rmSync(scratch, { recursive: true, force: true });
 });
@@ -30,7 +30,6 @@ describe('performance', () => {
     // A long cue, so that its effect is visible whenever the test compares pictures.
     const cues = [{ time: 0, duration: 590_000, expression: 'joy', value: 1 }];
     const smile = { format: 'semblante.performance', version: 1, name: 'A long smile', duration: 600_000, cues };
-    await page.getByRole('button', { name: 'Pause the stream' }).click();
     const neutral = await studio.pictureAtRest();
     await page.locator('#tab-live').click();
     await studio.drop(file('smile.json', JSON.stringify(smile)));
@@ -165,11 +164,11 @@ describe('performance', () => {
     await page.getByRole('switch', { name: 'Idle life' }).check();
     await chip.getByText('By hand').waitFor();
     // After the easing from the clip's pose to the neutral face, the only motion left is idle life.
-    await studio.drawn(90);
+    await studio.drawn(10);
     await studio.pictureUnlike(await studio.picture(), faceAlone, 0.02);
     await page.getByRole('switch', { name: 'Idle life' }).uncheck();
     const still = await studio.pictureAtRest();
-    await studio.drawn(60);
+    await studio.drawn(10);
     expect(await studio.difference(still, await studio.picture(), faceAlone)).toBe(0);
 
     await studio.drop(file('wrong.json', hello.replace('"viseme": "n_l"', '"viseme": "xyz"')));

@@ -4,7 +4,7 @@ import { patience } from './support/patience.ts';
 import { coarse, phone, StudioPage } from './support/studio_page.ts';
 import { browser, server, useStudio } from './support/suite.ts';
 
-useStudio({ tokenScope: 'admin' });
+useStudio({ demo: false, tokenScope: 'admin' });
 
 async function createStream(title: string): Promise<void> {
   const response = await fetch(`${server.url}/v1/streams`, {

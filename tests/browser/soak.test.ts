@@ -4,10 +4,11 @@ import { bytesOf, growthOf, heldByScripts, type Holdings } from './support/heap.
 import { root, sampleHead } from './support/paths.ts';
 import { coarse, StudioPage, type Inside } from './support/studio_page.ts';
 import { browser, server, useStudio } from './support/suite.ts';
+import { everyVariant } from './support/variants.ts';
 
-/** How long the studio is used; without it, the few rounds that show what grows with each of them. */
+/** How long the studio is used; without it, the few rounds that show what grows with each of them: one object of the graphics card or one listener. */
 const seconds = Number(process.env['SEMBLANTE_SOAK_SECONDS'] ?? 0);
-const fewRounds = 2;
+const fewRounds = everyVariant ? 10 : 1;
 /** First rounds, which fill caches: compiled shaders, texts, the tabs' code. */
 const warmUp = 2;
 
@@ -70,7 +71,7 @@ test('Studio_Used_HoldsNoMoreAfterEachRound', async () => {
   const look = async (...tabs: string[]): Promise<void> => {
     for (const tab of tabs) {
       await page.locator(`#tab-${tab}`).click();
-      await studio.drawn(5);
+      await studio.drawn(3);
     }
   };
 
@@ -84,7 +85,7 @@ test('Studio_Used_HoldsNoMoreAfterEachRound', async () => {
     await look('points', 'fit', 'live', 'animate');
     await studio.drop(join(root, 'protocol/examples/performances/hello.json'));
     await page.locator('.driver').getByText('Playing hello.json').waitFor();
-    await studio.drawn(20);
+    await studio.drawn(5);
     const group = page.locator('.fap-group').first();
     await group.locator('summary').click();
     await group.locator('input[type=range]').first().press('ArrowRight');
@@ -92,7 +93,7 @@ test('Studio_Used_HoldsNoMoreAfterEachRound', async () => {
     await group.locator('summary').click();
     await page.locator('.driver').getByRole('button').click();
     await page.locator('.driver').getByText(/^Live: /).waitFor();
-    await studio.drawn(20);
+    await studio.drawn(5);
     expect((await fetch(`${server.url}/v1/models/${other}`, { method: 'DELETE' })).status).toBe(204);
     await page.waitForFunction(() => document.querySelectorAll('.head').length === 1); // until the page has heard of it
   };

@@ -4,6 +4,7 @@ import { join } from 'node:path';
 import { describe, expect, test } from 'vitest';
 import { faces, sampleHead, samplePoints } from './support/paths.ts';
 import { eventually } from './support/patience.ts';
+import { startServer } from './support/server.ts';
 import { StudioPage } from './support/studio_page.ts';
 import { browser, server, useStudio } from './support/suite.ts';
 
@@ -18,7 +19,7 @@ interface PointsFile {
 
 const scratch = mkdtempSync(join(tmpdir(), 'semblante-studio-'));
 
-useStudio();
+useStudio({ demo: false });
 
 async function importPoints(studio: StudioPage, path: string): Promise<void> {
   await studio.page.setInputFiles('#points-file', path);
@@ -71,8 +72,6 @@ async function bringToLife(studio: StudioPage, head: string, points: string): Pr
 
 async function moveSliderAndCompare(studio: StudioPage): Promise<void> {
   const { page } = studio;
-  // The demo drives every parametrized head; pausing it gives the face to the sliders.
-  await page.getByRole('button', { name: 'Pause the stream' }).click();
   const before = await studio.pictureAtRest();
   await page.locator('details[data-group="2"] summary').click();
   const jaw = page.getByRole('slider', { name: 'Open jaw' });
@@ -90,21 +89,25 @@ async function moveSliderAndCompare(studio: StudioPage): Promise<void> {
 
 describe('studio', () => {
   test('Studio_FirstVisit_SampleHeadMovesByTheDemoStream', async () => {
-    const studio = await StudioPage.open(browser, server.url, { calm: true });
-    await studio.waitForStage('ready');
-    await studio.page
-      .getByText(/^Live: /)
-      .first()
-      .waitFor();
-    await studio.pictureUnlike(await studio.picture(), faceAlone, 0.5);
-    expect(studio.errors).toEqual([]);
-    await studio.close();
+    const withDemo = await startServer();
+    try {
+      const studio = await StudioPage.open(browser, withDemo.url);
+      await studio.waitForStage('ready');
+      await studio.page
+        .getByText(/^Live: /)
+        .first()
+        .waitFor();
+      await studio.pictureUnlike(await studio.picture(), faceAlone, 0.5);
+      expect(studio.errors).toEqual([]);
+      await studio.close();
+    } finally {
+      await withDemo.stop();
+    }
   });
 
   test('Studio_GraphicsContextLost_IsDrawnAgain', async () => {
-    const studio = await StudioPage.open(browser, server.url, { calm: true, allowed: /Context Lost/ });
+    const studio = await StudioPage.open(browser, server.url, { allowed: /Context Lost/ });
     await studio.waitForStage('ready');
-    await studio.page.getByRole('button', { name: 'Pause the stream' }).click();
     const before = await studio.pictureAtRest();
     const context = await studio.page.evaluateHandle(() => {
       const canvas = document.querySelector<HTMLCanvasElement>('canvas.canvas')!;
@@ -121,7 +124,7 @@ describe('studio', () => {
   });
 
   test('Studio_DropMarkParametrize_SliderMovesTheMouth', async () => {
-    const studio = await StudioPage.open(browser, server.url, { calm: true });
+    const studio = await StudioPage.open(browser, server.url);
     await studio.waitForStage('ready');
     await bringToLife(studio, sampleHead, samplePoints);
     await moveSliderAndCompare(studio);
@@ -130,7 +133,7 @@ describe('studio', () => {
   });
 
   test.skipIf(faces === null)('Studio_DropMakeHuman_SliderMovesTheMouth', async () => {
-    const studio = await StudioPage.open(browser, server.url, { calm: true });
+    const studio = await StudioPage.open(browser, server.url);
     await studio.waitForStage('ready');
     await bringToLife(studio, join(faces!, 'makehuman/head.glb'), join(faces!, 'makehuman/makehuman.fps.json'));
     await moveSliderAndCompare(studio);
@@ -139,7 +142,7 @@ describe('studio', () => {
   });
 
   test('Studio_RefusedPoints_ReasonStandsBesideThePoint', async () => {
-    const studio = await StudioPage.open(browser, server.url, { calm: true, allowed: /status of 4\d\d/ });
+    const studio = await StudioPage.open(browser, server.url, { allowed: /status of 4\d\d/ });
     await studio.waitForStage('ready');
     await studio.drop(sampleHead, 'refused.glb');
     await studio.waitForState('ready');
@@ -154,7 +157,7 @@ describe('studio', () => {
   });
 
   test('Studio_FileThatIsNoModel_SaysSo', async () => {
-    const studio = await StudioPage.open(browser, server.url, { calm: true, allowed: /status of 4\d\d/ });
+    const studio = await StudioPage.open(browser, server.url, { allowed: /status of 4\d\d/ });
     await studio.waitForStage('ready');
     const text = join(scratch, 'letter.glb');
     writeFileSync(text, 'Dear reader, this is not a head.');
@@ -165,7 +168,7 @@ describe('studio', () => {
   });
 
   test('Studio_VrmFile_IsOfferedAndRead', async () => {
-    const studio = await StudioPage.open(browser, server.url, { calm: true });
+    const studio = await StudioPage.open(browser, server.url);
     const { page } = studio;
     await studio.waitForStage('ready');
     expect((await page.locator('#file').getAttribute('accept'))?.split(',')).toContain('.vrm');
@@ -178,7 +181,7 @@ describe('studio', () => {
   });
 
   test('Studio_AGltfWithItsFiles_ChosenOrDroppedAsAFolder_BecomesOneHead', async () => {
-    const studio = await StudioPage.open(browser, server.url, { calm: true });
+    const studio = await StudioPage.open(browser, server.url);
     await studio.waitForStage('ready');
     const folder = join(scratch, 'Ana');
     const files = writeGltf(folder, readFileSync(sampleHead));
@@ -198,7 +201,7 @@ describe('studio', () => {
   });
 
   test('Studio_RenameAndDelete_ShelfFollows', async () => {
-    const studio = await StudioPage.open(browser, server.url, { calm: true });
+    const studio = await StudioPage.open(browser, server.url);
     const { page } = studio;
     await studio.waitForStage('ready');
     await studio.drop(sampleHead, 'short-lived.glb');
@@ -220,10 +223,8 @@ describe('studio', () => {
   });
 
   test('Studio_PublishByHand_AnotherPageSeesIt', async () => {
-    const director = await StudioPage.open(browser, server.url, { calm: true });
+    const director = await StudioPage.open(browser, server.url);
     await director.waitForStage('ready');
-    // Its own face stands still in the meantime: both pages share one software renderer.
-    await director.page.getByRole('button', { name: 'Pause the stream' }).click();
     await director.page.locator('#tab-live').click();
     await director.page.getByRole('button', { name: 'New stream' }).click();
     await director.page.getByRole('textbox', { name: 'Title' }).fill('Two pages');
@@ -233,7 +234,7 @@ describe('studio', () => {
     await director.page.getByRole('switch', { name: 'Publish my sliders' }).check();
     await director.page.getByText('Publishing: move a slider in Animate.').waitFor();
 
-    const viewer = await StudioPage.open(browser, server.url, { calm: true });
+    const viewer = await StudioPage.open(browser, server.url);
     await viewer.waitForStage('ready');
     await viewer.page.locator('#tab-live').click();
     await viewer.page.locator('.stream', { hasText: 'Two pages' }).getByRole('button', { name: 'Watch' }).click();

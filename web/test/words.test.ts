@@ -4,6 +4,7 @@ import { fileURLToPath } from 'node:url';
 import ts from 'typescript';
 import { expressions, faps, featurePointNames, visemes } from '@protocol/generated/mpeg4.ts';
 import { expect, test } from 'vitest';
+import { lengthUnits } from '../src/face/unit_measures.ts';
 import { capital, fapTitle } from '../src/ui/shared/names.ts';
 import { portuguese } from '../src/words/portuguese.ts';
 import { portugueseFindings, portugueseMeasure } from '../src/words/portuguese_findings.ts';
@@ -93,6 +94,7 @@ test('Words_NamesOfTheStandard_AllHaveATranslation', () => {
   const names = [
     ...featurePointNames,
     ...faps.map(({ name, group }) => fapTitle(name, group)),
+    ...lengthUnits.map(({ meaning }) => meaning),
     ...expressions.slice(1).flatMap(({ name, description }) => [capital(name), description]),
   ];
   expect(names.filter((name) => portugueseNames[name] === undefined)).toEqual([]);

@@ -42,16 +42,14 @@ export interface OpenOptions {
   /** A touch screen. */
   touch?: boolean;
   motion?: BrowserContextOptions['reducedMotion'];
-  /**
-   * A page with all its pixels, for tests of single pixels. The others have half of them along each side, as `coarse` says: without
-   * a graphics card most of a test's time is the drawing of pixels.
-   */
+  /** A `lively` page with all its pixels, for tests of single pixels; the others have half of them along each side, see `coarse`. */
   sharp?: boolean;
   /**
-   * Draws ten times a second at most, and a quarter of the pixels of the face: for tests beside a stream that always moves it, whose
-   * motion they do not measure. Without a graphics card it would be drawn as often as the processor can.
+   * Draws each frame, with as many pixels of the face as of the page, for tests of motion, frame rates and video. The others are calm:
+   * they draw ten times a second at most, and a quarter of the pixels. Without a graphics card most of a test's time is drawing, and
+   * a face that moves is drawn as often as the processor can. `useStudio` states it for a whole file.
    */
-  calm?: boolean;
+  lively?: boolean;
   /** Console errors that the test expects; a refused request, for example, is logged as a failed one. */
   allowed?: RegExp;
 }
@@ -59,8 +57,11 @@ export interface OpenOptions {
 /** Device pixels along a side of a CSS pixel, for tests that look at no single ones. */
 export const coarse = 0.5;
 
-/** Pages of this context are `calm` ones: see `OpenOptions`. */
-export function calmDown(context: BrowserContext): Promise<void> {
+/** What pages are that do not state it, in the present test file. */
+export const usual: Required<Pick<OpenOptions, 'lively'>> = { lively: false };
+
+/** Pages of this context draw seldom and few pixels: see `OpenOptions.lively`. */
+function calmDown(context: BrowserContext): Promise<void> {
   return context.addInitScript(() => {
     Object.defineProperty(window, 'devicePixelRatio', { get: () => 0.25 }); // the layout keeps the pixels that it has
     const leastBetween = 90; // milliseconds: with the display's own steps ten frames a second
@@ -97,6 +98,9 @@ export function calmDown(context: BrowserContext): Promise<void> {
   });
 }
 
+/** ms between two pictures that are equal when nothing moves: more than the studio waits before it draws a still picture with all pixels. */
+const leastRest = 400;
+
 /** A phone, for `StudioPage.open`. */
 export const phone = { width: 390, height: 844, touch: true } as const;
 
@@ -118,13 +122,13 @@ export class StudioPage {
       ...(options.locale ? { locale: options.locale } : {}),
       ...(options.touch ? { isMobile: true, hasTouch: true } : {}),
     });
-    if (options.calm) await calmDown(context);
     return StudioPage.openIn(context, url, options);
   }
 
-  /** In a context of the test's own. */
-  static async openIn(context: BrowserContext, url: string, options: Pick<OpenOptions, 'allowed'> = {}): Promise<StudioPage> {
+  /** In a context of the test's own, which has no page yet. */
+  static async openIn(context: BrowserContext, url: string, options: Pick<OpenOptions, 'allowed' | 'lively' | 'sharp'> = {}): Promise<StudioPage> {
     context.setDefaultTimeout(patience);
+    if (!(options.lively ?? usual.lively) && !options.sharp) await calmDown(context);
     const page = await context.newPage();
     // Playwright's timeout is not for scripts: one that waits in the page for what never comes would wait without end.
     const evaluate = page.evaluate.bind(page) as (script: unknown, argument?: unknown) => Promise<unknown>;
@@ -161,7 +165,7 @@ export class StudioPage {
     );
   }
 
-  /** Waits for this number of drawn frames. */
+  /** Waits for this number of frames, of which a calm page has ten a second. */
   async drawn(times: number): Promise<void> {
     await this.page.evaluate(
       (count) =>
@@ -225,7 +229,8 @@ export class StudioPage {
     await eventually(
       'the stage comes to rest',
       async () => {
-        await this.drawn(30);
+        // Frames, as a busy machine has few; and time, in which a face and a camera that are on their way move by what is seen.
+        await Promise.all([this.drawn(4), this.page.waitForTimeout(leastRest)]);
         const before = last;
         last = await this.picture();
         return last.equals(before);

@@ -2,7 +2,7 @@ import type { Browser } from 'playwright-core';
 import { afterAll, beforeAll } from 'vitest';
 import { within } from './patience.ts';
 import { startServer, type RunningServer, type ServerOptions } from './server.ts';
-import { launch } from './studio_page.ts';
+import { launch, usual, type OpenOptions } from './studio_page.ts';
 
 /** Of the test file that called `useStudio` or `useBrowser`, while its tests run. */
 export let server: RunningServer;
@@ -29,11 +29,13 @@ export function useBrowser(args: string[] = []): void {
   });
 }
 
-/** Gives the tests of a file a server too, and stops it after them. */
-export function useStudio(options: ServerOptions = {}, args: string[] = []): void {
+/** Gives the tests of a file a server too, and stops it after them. `lively`: what its pages are that do not state it. */
+export function useStudio({ lively = false, ...options }: ServerOptions & Pick<OpenOptions, 'lively'> = {}, args: string[] = []): void {
   beforeAll(async () => {
+    usual.lively = lively;
     server = await startServer(options);
   });
+  afterAll(() => (usual.lively = false));
   afterAll(() => within('the server stops', Promise.resolve(server?.stop())));
   useBrowser(args); // hooks run backwards after the tests: the pages close before their server stops
 }

@@ -3,7 +3,9 @@ import { Player, shownPose, type FaceFrame, type Kernel, type Pose, type StreamC
 
 /** Time constant of the easing towards a frame set by hand, s: 63 % of the distance. Quick, without a jump. */
 const handTimeConstant = 0.055;
-const handDuration = 12 * handTimeConstant;
+/** After it the rest of the way, 0.03 % of it, is done at once. */
+const handDuration = 8 * handTimeConstant;
+const justBeforeTheEnd = handDuration - 1e-6;
 
 // The player uses the kernel's poses 0 (shown), 1 and 2; the poses below belong to this class.
 const handTarget = 3;
@@ -11,6 +13,9 @@ const handShown = 4;
 const clipFrom = 5;
 const clipTo = 6;
 export const poseCount = 7;
+
+const isSamePose = (a: Pose, b: Pose): boolean =>
+  (Object.keys(a) as (keyof Pose)[]).every((part) => a[part].every((value, i) => value === b[part][i]));
 
 /**
  * Computes the displayed pose in the kernel: from a stream (with the SDK's player), by easing towards a single frame,
@@ -53,7 +58,9 @@ export class Performer {
     if (this.shown !== handShown) this.kernel.interpolate(this.shown, this.shown, 0, handShown);
     this.kernel.evaluate(frame, handTarget);
     this.shown = handShown;
-    this.settled = 0;
+    // A face that is there already is drawn once, not for the duration of an easing.
+    const { poses } = this.kernel;
+    this.settled = isSamePose(poses[handShown]!, poses[handTarget]!) ? justBeforeTheEnd : 0;
   }
 
   /**

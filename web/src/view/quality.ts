@@ -16,7 +16,7 @@ export interface Quality {
 }
 
 const full: Quality = { antialias: true, shadows: true, richSkin: true, roomSize: 256, maxPixelRatio: 2, movingPixelRatio: 2 };
-const light: Quality = { antialias: false, shadows: false, richSkin: false, roomSize: 64, maxPixelRatio: 1, movingPixelRatio: coarse };
+const light: Quality = { antialias: false, shadows: false, richSkin: false, roomSize: 32, maxPixelRatio: 1, movingPixelRatio: coarse };
 
 /** Lower quality for software renderers, where every shaded pixel is slow. Throws where WebGL 2 is missing. */
 export function chooseQuality(): Quality {

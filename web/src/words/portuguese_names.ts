@@ -1,5 +1,11 @@
 /** The names of the standard's tables and of the doctor's findings in Brazilian Portuguese, by their English form. */
 export const portugueseNames: Readonly<Record<string, string>> = {
+  'iris diameter (equal, by the definition of the neutral face, to the distance between upper and lower lid)':
+    'diâmetro da íris (igual, pela definição do rosto neutro, à distância entre a pálpebra superior e a inferior)',
+  'distance between the centres of the eyes (pupils)': 'distância entre os centros dos olhos (pupilas)',
+  'distance from the line between the eyes to the base of the nose': 'distância da linha entre os olhos à base do nariz',
+  'distance from the base of the nose to the mouth line': 'distância da base do nariz à linha da boca',
+  'mouth width': 'largura da boca',
   'bottom of the chin': 'parte de baixo do queixo',
   'middle of the inner contour of the upper lip': 'meio do contorno interno do lábio superior',
   'middle of the inner contour of the lower lip': 'meio do contorno interno do lábio inferior',

@@ -8,7 +8,7 @@ import { icon } from '../shared/icons.ts';
 import { capital } from '../shared/names.ts';
 import type { Studio } from '../shared/studio.ts';
 import type { SceneView } from '../stage/scene.ts';
-import { t } from '../../words/words.ts';
+import { nameOf, t } from '../../words/words.ts';
 
 const sides: Record<UnitLine['unit'], LabelledLine['side']> = {
   IRISD: 'beside',
@@ -129,7 +129,7 @@ export class UnitsPanel {
     return h(
       'div',
       { class: 'unit-row' },
-      h('label', { for: `unit-${unit}`, title: capital(meaning) }, h('strong', {}, unit), h('small', { class: 'muted' }, shortMeanings[unit])),
+      h('label', { for: `unit-${unit}`, title: capital(nameOf(meaning)) }, h('strong', {}, unit), h('small', { class: 'muted' }, shortMeanings[unit])),
       input,
       byHand === undefined
         ? h('small', { class: 'muted unit-origin' }, t('measured'))
