@@ -1,7 +1,7 @@
 import { describe, expect, test } from 'vitest';
 import { shownFace, untilFace } from './support/face_page.ts';
 import { patience } from './support/patience.ts';
-import { coarse, phone, StudioPage } from './support/studio_page.ts';
+import { calmDown, coarse, phone, StudioPage } from './support/studio_page.ts';
 import { browser, server, useStudio } from './support/suite.ts';
 
 useStudio({ demo: false, tokenScope: 'admin' });
@@ -37,6 +37,7 @@ describe('a stream on a phone', () => {
 
     const stateOf = async (url: string): Promise<string> => {
       const context = await browser.newContext({ viewport: { width: 390, height: 844 }, deviceScaleFactor: coarse });
+      await calmDown(context);
       context.setDefaultTimeout(patience);
       const viewer = await context.newPage();
       await viewer.goto(url, { waitUntil: 'domcontentloaded' });

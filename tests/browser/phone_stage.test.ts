@@ -44,7 +44,7 @@ test('Phone_Fingers_OneTurnsTheHeadTwoMoveItAndADoubleTapGoesNearer', async () =
       await studio.drawn(1);
     }
     await touch('touchEnd', 60);
-    await studio.drawn(40); // it comes to rest
+    await studio.drawn(15); // it comes to rest
   };
 
   const first = await cameraOf(studio);
@@ -57,7 +57,7 @@ test('Phone_Fingers_OneTurnsTheHeadTwoMoveItAndADoubleTapGoesNearer', async () =
   expect(apart(turned.target, moved.target) / length(first.arm), 'two fingers move').toBeGreaterThan(0.02);
   expect(angle(turned.arm, moved.arm), 'and do not turn').toBeLessThan(0.01);
   for (let tap = 0; tap < 2; tap += 1) await page.touchscreen.tap(middle.x, middle.y);
-  await studio.drawn(40);
+  await studio.drawn(15);
   expect(length((await cameraOf(studio)).arm) / length(moved.arm), 'a double tap goes nearer').toBeLessThan(0.6);
   expect(await page.getByRole('button', { name: 'Keys' }).count(), 'fingers need no sheet of keys').toBe(0);
   expect(studio.errors).toEqual([]);

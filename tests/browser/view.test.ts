@@ -2,15 +2,18 @@ import type { Page } from 'playwright-core';
 import { expect, test } from 'vitest';
 import { shownFace, untilFace, type ShownFace } from './support/face_page.ts';
 import { patience } from './support/patience.ts';
+import { calmDown, coarse } from './support/studio_page.ts';
 import { browser, server, useStudio } from './support/suite.ts';
 
 useStudio();
 async function open(path: string, options: { reducedMotion?: 'reduce'; noWebGl?: boolean; locale?: string } = {}): Promise<{ page: Page; errors: string[] }> {
   const context = await browser.newContext({
     viewport: { width: 390, height: 844 },
+    deviceScaleFactor: coarse,
     reducedMotion: options.reducedMotion ?? 'no-preference',
     locale: options.locale ?? 'en-US',
   });
+  await calmDown(context);
   context.setDefaultTimeout(patience);
   const page = await context.newPage();
   const errors: string[] = [];

@@ -3,13 +3,15 @@ import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 import { shownFace, untilFace, type ShownFace } from './support/face_page.ts';
 import { BadNetwork } from './support/network.ts';
 import { eventually, patience } from './support/patience.ts';
+import { calmDown, coarse } from './support/studio_page.ts';
 import { browser, server, useStudio } from './support/suite.ts';
 
 let network: BadNetwork;
 
 /** The page of the demo, by a network that can be cut. `mark` tells afterwards whether the page was loaded anew. */
 async function open(): Promise<Page> {
-  const context = await browser.newContext({ viewport: { width: 390, height: 844 } });
+  const context = await browser.newContext({ viewport: { width: 390, height: 844 }, deviceScaleFactor: coarse });
+  await calmDown(context);
   context.setDefaultTimeout(patience);
   const page = await context.newPage();
   await page.goto(`${network.address}/view/demo`, { waitUntil: 'domcontentloaded', timeout: patience });

@@ -60,8 +60,8 @@ export const coarse = 0.5;
 /** What pages are that do not state it, in the present test file. */
 export const usual: Required<Pick<OpenOptions, 'lively'>> = { lively: false };
 
-/** Pages of this context draw seldom and few pixels: see `OpenOptions.lively`. */
-function calmDown(context: BrowserContext): Promise<void> {
+/** Pages of this context draw seldom and few pixels: see `OpenOptions.lively`. For pages that are not the studio. */
+export function calmDown(context: BrowserContext): Promise<void> {
   return context.addInitScript(() => {
     Object.defineProperty(window, 'devicePixelRatio', { get: () => 0.25 }); // the layout keeps the pixels that it has
     const leastBetween = 90; // milliseconds: with the display's own steps ten frames a second
