@@ -10,7 +10,7 @@ import { browser, server, useStudio } from './support/suite.ts';
  * that code which is not yet optimized keeps on the heap, 12 bytes each. A frame of a face has 400, its pose 2800.
  */
 const mostBytes = 650;
-const frames = 80;
+const frames = 160;
 
 useStudio({ lively: true });
 
@@ -30,7 +30,7 @@ function inTheLoop({ children, selfSize, callFrame: { functionName, url } }: Sam
 /** Bytes a drawn frame; whether the collector ran does not matter. */
 async function bytesOfAFrame(studio: StudioPage, devtools: CDPSession): Promise<number> {
   const drawn = (): Promise<number> => studio.page.evaluate(() => (window as unknown as Inside).semblante.scene.stage.drawn);
-  await studio.drawn(frames); // so that the code is warm
+  await studio.drawn(frames / 2); // so that the code is warm
   const before = await drawn();
   const options = { samplingInterval: 256, includeObjectsCollectedByMajorGC: true, includeObjectsCollectedByMinorGC: true };
   await devtools.send('HeapProfiler.startSampling', options);

@@ -18,7 +18,7 @@ const figures = (page: Page): Promise<Record<string, string>> =>
 
 describe('the figures over the picture', () => {
   test('FollowedStream_FiguresComeAndGoWithTheSwitchAndTheStream', async () => {
-    const studio = await StudioPage.open(browser, `${server.url}/#sample/live?stream=demo`, { width: 1440, height: 900 });
+    const studio = await StudioPage.open(browser, `${server.url}/#sample/live?stream=demo`, { width: 1440, height: 900, sharp: true });
     const { page } = studio;
     await studio.waitForStage('ready');
     const overlay = page.getByRole('group', { name: 'Figures of the stream' });

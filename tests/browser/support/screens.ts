@@ -1,3 +1,4 @@
+import type { Page } from 'playwright-core';
 import { expect } from 'vitest';
 import { keepsPictures } from './looks.ts';
 import type { StudioPage } from './studio_page.ts';
@@ -10,6 +11,14 @@ const tabs = ['animate', 'fit', 'points', 'live'] as const;
 /** Opens everything that is folded. */
 const unfold = ({ page }: StudioPage): Promise<void> =>
   page.evaluate(() => document.querySelectorAll('details').forEach((one) => (one.open = true)));
+
+/** The views that are switched on by hand, on a face with an expression and a viseme. */
+async function showInfluence(page: Page, on: boolean): Promise<void> {
+  for (const box of ['influence-view', 'units-view']) await page.locator(`#${box}`).setChecked(on);
+  if (!on) return;
+  await page.locator('[data-expression="1"]').click();
+  await page.locator('[data-viseme="2"]').click();
+}
 
 /**
  * Goes to each screen of a page that shows the sample head: tabs, dialogs, findings, errors. The server has a stream and a head
@@ -28,8 +37,10 @@ export async function goToEachScreen(studio: StudioPage, refused: string, visit:
   for (const tab of tabs) {
     await page.locator(`#tab-${tab}`).click();
     if (keepsPictures) await visit(studio, tab, `#panel-${tab}`); // unfolded it has all that it has folded
+    if (tab === 'animate') await showInfluence(page, true);
     await unfold(studio);
     await visit(studio, `${tab}-unfolded`, `#panel-${tab}`);
+    if (tab === 'animate') await showInfluence(page, false);
   }
   await page.locator('#tab-points').click();
   await page.locator('.points .section-head .segments button').last().click();
@@ -48,11 +59,6 @@ export async function goToEachScreen(studio: StudioPage, refused: string, visit:
   await page.locator('#tab-animate').click();
   await page.getByRole('button', { name: /^(Code|Código)$/ }).click();
   await dialog('dialog-code');
-  for (const box of ['influence-view', 'units-view']) await page.locator(`#${box}`).check();
-  await page.locator('[data-expression="1"]').click();
-  await page.locator('[data-viseme="2"]').click();
-  await visit(studio, 'influence', '#panel-animate');
-  for (const box of ['influence-view', 'units-view']) await page.locator(`#${box}`).uncheck();
 
   const shelfTab = page.locator('#tab-heads'); // on a narrow page, as phones and small laptops have
   if (await shelfTab.isVisible()) await shelfTab.click();
@@ -83,11 +89,11 @@ export async function goToEachScreen(studio: StudioPage, refused: string, visit:
   await visit(studio, 'no-server');
 }
 
-/** The tabs of a server without heads. */
+/** The tabs of a server without heads; they say the same, and one of them is enough where no pictures are kept. */
 export async function goToEmptyScreens(studio: StudioPage, visit: Visit): Promise<void> {
   const { page } = studio;
   await page.locator('.stage-card, .stage-empty, .drop').first().waitFor();
-  for (const tab of tabs) {
+  for (const tab of keepsPictures ? tabs : (['animate'] as const)) {
     await page.locator(`#tab-${tab}`).click();
     await visit(studio, `empty-${tab}`);
   }
