@@ -42,6 +42,6 @@ test('Studio_FirstVisit_MovesWithAtMost900kB_OfItScript300kB', async () => {
   const side = await page.evaluate(
     () => (window as unknown as { semblante: { scene: { stage: { scene: { environment: { mipmaps: { width: number }[] } } } } } }).semblante.scene.stage.scene.environment.mipmaps[0]!.width,
   );
-  expect(side).toBe(64);
+  expect(side).toBe(32);
   await context.close();
 });

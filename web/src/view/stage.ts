@@ -9,6 +9,7 @@ import {
   Scene,
   SRGBColorSpace,
   Vector3,
+  Vector4,
   WebGLRenderer,
   type Object3D,
 } from 'three';
@@ -348,30 +349,28 @@ export class Stage {
     this.invalidate();
   }
 
-  /** A small image of the face from in front, as a data URL, for the shelf; the camera stays where it is. */
+  /**
+   * A small image of the face from in front, as a data URL, for the shelf. To be taken in a frame hook: the picture of the stage, whose
+   * camera stays where it is, is drawn over it before anybody sees it.
+   */
   thumbnail(size: number): string {
-    const camera = this.camera.clone();
-    const half = (camera.fov * Math.PI) / 360;
-    camera.position.copy(this.center).add(new Vector3(0, 0, (this.radius * 1.06) / Math.tan(half) / Math.min(1, camera.aspect)));
-    camera.lookAt(this.center);
-    this.renderer.render(this.scene, camera);
+    const { renderer, camera } = this;
+    const from = renderer.domElement;
+    const side = Math.min(size, from.width, from.height);
+    const front = camera.clone();
+    front.aspect = 1;
+    front.updateProjectionMatrix();
+    front.position.copy(this.center).add(new Vector3(0, 0, (this.radius * 1.06) / Math.tan((camera.fov * Math.PI) / 360)));
+    front.lookAt(this.center);
+    const whole = renderer.getViewport(new Vector4());
+    const ratio = renderer.getPixelRatio();
+    renderer.setViewport(0, 0, side / ratio, side / ratio); // no more pixels than the image has
+    renderer.render(this.scene, front);
+    renderer.setViewport(whole);
     this.invalidate();
-    const from = this.renderer.domElement;
-    const side = Math.min(from.width, from.height);
     const to = document.createElement('canvas');
-    to.width = size;
-    to.height = size;
-    to.getContext('2d')?.drawImage(
-      from,
-      (from.width - side) / 2,
-      (from.height - side) / 2,
-      side,
-      side,
-      0,
-      0,
-      size,
-      size,
-    );
+    to.width = to.height = size;
+    to.getContext('2d')?.drawImage(from, 0, from.height - side, side, side, 0, 0, size, size);
     return to.toDataURL('image/webp', 0.8);
   }
 
