@@ -21,7 +21,8 @@ constexpr double greatest_slit = 2.4;
 constexpr double closed_slit = 0.05;
 constexpr double open_slit = 0.3;
 
-/// By how much the front of a ball may differ about its axis and count as round: less than lids' clearance from it.
+/// Radii at one place of the front may differ by this share, and the front still counts as round. It is less than the
+/// clearance of lids from the ball.
 constexpr double unround = 0.01;
 
 /// The angle of a place about the line through the pivot along x, from straight ahead upwards.
@@ -67,8 +68,8 @@ struct Profile {
   }
 
  private:
-  /// The mean, or more where the front is not round about the axis: lids clear what stands out. At the sides the mean
-  /// alone counts: corners of lids lie there, which would be moved by an eyeball that is wider than high.
+  /// The mean distance; on the front the greatest one (less `unround`) if that is more, so that lids clear what stands
+  /// out. Not at the sides: the greatest distance of an eyeball that is wider than high would move the corners of lids.
   [[nodiscard]] double radius(std::size_t place) const {
     const double mean = sum[place] / weight[place];
     return place < Lids::ball_places / 2 ? std::max(mean, (1.0 - unround) * greatest[place]) : mean;

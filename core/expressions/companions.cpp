@@ -21,7 +21,7 @@ constexpr std::array folds = {Fold{"3.13", "3.1", "4.3", {"3.11", "3.7"}}, Fold{
 /// Distance of a brow from the fold of its lid, in widths of the eye, from which on the fold stays when the brow moves.
 constexpr double far_brow = 0.5;
 
-/// A point that goes along with another one as far as it is nearer to it than `far` lengths from `from` to `to`.
+/// `point` follows `leader` if they are nearer to each other than `far` times the distance of `from` and `to`.
 struct Neighbour {
   std::string_view point, leader, from, to;
   double far;
@@ -52,6 +52,23 @@ std::optional<glm::dvec3> place_of(const FeaturePointSet& points, std::string_vi
   return point != nullptr ? std::optional(glm::dvec3(point->position)) : std::nullopt;
 }
 
+std::vector<Companion> near_ones(const FeaturePointSet& points, std::span<const Neighbour> neighbours) {
+  std::vector<Companion> result;
+  for (const Neighbour& n : neighbours) {
+    const auto point = place_of(points, n.point);
+    const auto leader = place_of(points, n.leader);
+    const auto from = place_of(points, n.from);
+    const auto to = place_of(points, n.to);
+    if (!point || !leader || !from || !to) continue;
+    const double far = n.far * glm::distance(*from, *to);
+    const double beside = glm::distance(*point, *leader);
+    if (!(beside < far)) continue;
+    result.push_back(
+        {*parse_feature_point(n.point), *parse_feature_point(n.leader), static_cast<float>(1.0 - beside / far)});
+  }
+  return result;
+}
+
 }  // namespace
 
 std::vector<Companion> folds_below_near_brows(const FeaturePointSet& points) {
@@ -72,27 +89,6 @@ std::vector<Companion> folds_below_near_brows(const FeaturePointSet& points) {
   }
   return result;
 }
-
-namespace {
-
-std::vector<Companion> near_ones(const FeaturePointSet& points, std::span<const Neighbour> neighbours) {
-  std::vector<Companion> result;
-  for (const Neighbour& n : neighbours) {
-    const auto point = place_of(points, n.point);
-    const auto leader = place_of(points, n.leader);
-    const auto from = place_of(points, n.from);
-    const auto to = place_of(points, n.to);
-    if (!point || !leader || !from || !to) continue;
-    const double far = n.far * glm::distance(*from, *to);
-    const double beside = glm::distance(*point, *leader);
-    if (!(beside < far)) continue;
-    result.push_back(
-        {*parse_feature_point(n.point), *parse_feature_point(n.leader), static_cast<float>(1.0 - beside / far)});
-  }
-  return result;
-}
-
-}  // namespace
 
 std::vector<Companion> cheeks_beside_near_corners(const FeaturePointSet& points) {
   return near_ones(points, near_corners);

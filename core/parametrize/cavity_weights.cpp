@@ -280,7 +280,7 @@ class Diffusion {
   std::vector<SurfaceVertexId> rim_;
   std::vector<Link> links_;
   std::vector<std::uint32_t> link_offsets_;
-  std::vector<std::size_t> ids_;                              ///< of the columns
+  std::vector<std::size_t> ids_;                              ///< by column: id of its point
   std::array<std::size_t, feature_point_count> column_of_{};  ///< by id
   std::size_t blocks_ = 0;                                    ///< of a row
   std::vector<Goal> goals_;                                   ///< of the members of a mouth

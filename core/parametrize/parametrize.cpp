@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
 
 #include <glm/geometric.hpp>
@@ -89,21 +90,35 @@ constexpr double near_ball = 0.3;
 /// What follows a corner of the eye by this share stays as that does: it would be lifted as the ball turns.
 constexpr float of_corner = 0.5F;
 
-/// Whether a vertex lies before the front of the ball of its eye, not at a corner of the eye.
-bool lies_before_ball(const glm::dvec3& position, std::uint32_t file_vertex, const Rig& rig, std::size_t eye) {
-  const Lids& lids = *rig.lids[eye];
-  const double radius = *std::max_element(lids.ball.begin(), lids.ball.end());
-  const glm::dvec3 from = position - glm::dvec3(eye == 0 ? rig.left_eye_pivot : rig.right_eye_pivot);
-  if (!(from.z > 0.0 && glm::length(from) < (1.0 + near_ball) * radius)) return false;
-  const auto row = rig.influence.points_of(file_vertex);
-  const auto weights = rig.influence.weights_of(file_vertex);
-  for (const std::string_view corner : mpeg4::openings[1 + eye].corners) {
-    for (std::size_t k = 0; k < row.size(); ++k) {
-      if (row[k] == *parse_feature_point(corner) && weights[k] >= of_corner) return false;
-    }
+/// The place before the front of one eyeball, without the corners of the eye.
+class BallFront {
+ public:
+  BallFront(const Rig& rig, std::size_t eye)
+      : influence_(rig.influence),
+        pivot_(eye == 0 ? rig.left_eye_pivot : rig.right_eye_pivot),
+        reach_((1.0 + near_ball) * *std::max_element(rig.lids[eye]->ball.begin(), rig.lids[eye]->ball.end())) {
+    const auto& names = mpeg4::openings[1 + eye].corners;
+    std::transform(names.begin(), names.end(), std::back_inserter(corners_),
+                   [](std::string_view name) { return *parse_feature_point(name); });
   }
-  return !row.empty();
-}
+  [[nodiscard]] bool contains(const glm::dvec3& position, std::uint32_t file_vertex) const {
+    const glm::dvec3 from = position - pivot_;
+    if (!(from.z > 0.0 && glm::length(from) < reach_)) return false;
+    const auto row = influence_.points_of(file_vertex);
+    const auto weights = influence_.weights_of(file_vertex);
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      if (weights[k] >= of_corner && std::find(corners_.begin(), corners_.end(), row[k]) != corners_.end())
+        return false;
+    }
+    return !row.empty();
+  }
+
+ private:
+  const WeightTable<float>& influence_;
+  glm::dvec3 pivot_;
+  double reach_;  ///< from the pivot, model units
+  std::vector<FeaturePointId> corners_;
+};
 
 /// The vertices of lids: those that follow the points of one eye's lids, and skin that lies before its ball: a cheek or
 /// a brow that moves does not pass through the ball either. A vertex that follows the lids of both eyes is skin.
@@ -118,14 +133,16 @@ void find_rolling_lids(const Model& model, const Surface& surface, const std::ve
     if (edges) rig.lids[eye] = find_lids(surface, *edges, rig, eye);
     stop_joined_lids(model, surface, points, eye, rig);
     if (!rig.lids[eye]) continue;
+    const BallFront front(rig, eye);
     for (std::size_t s = 0; s < motion.size(); ++s) {
-      const auto row = rig.influence.points_of(surface.file_vertex_of[s].value());
+      if (motion[s] != RigidMotion::none) continue;
+      const std::uint32_t file_vertex = surface.file_vertex_of[s].value();
+      const auto row = rig.influence.points_of(file_vertex);
       const bool follows = std::any_of(row.begin(), row.end(), [&](FeaturePointId id) {
         return id == lid_points[eye][0] || id == lid_points[eye][1];
       });
-      const bool lies = rig.parts[surface.part_of[s].value()].role == PartRole::skin &&
-                        lies_before_ball(surface.positions[s], surface.file_vertex_of[s].value(), rig, eye);
-      if (!(follows || lies) || motion[s] != RigidMotion::none) continue;
+      const bool is_skin = rig.parts[surface.part_of[s].value()].role == PartRole::skin;
+      if (!follows && !(is_skin && front.contains(surface.positions[s], file_vertex))) continue;
       const bool is_of_both = lids[s] != RigidMotion::none;
       lids[s] = is_of_both ? RigidMotion::none : eye == 0 ? RigidMotion::left_lids : RigidMotion::right_lids;
     }

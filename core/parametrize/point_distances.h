@@ -15,7 +15,7 @@ namespace semblante {
 struct PointDistances {
   std::vector<SurfacePoint> points;          ///< #F on this part, in rising order of id; a *slot* indexes them
   std::span<const SurfaceVertexId> members;  ///< #M vertices of the part
-  DistancesFromAll to_members;               ///< from every slot
+  DistancesFromAll to_members;               ///< distances from every slot to every member
   std::vector<double> between;               ///< #F x #F, d_ij; symmetric
 
   [[nodiscard]] double at(std::size_t slot, std::size_t member) const { return to_members.at(slot, member); }

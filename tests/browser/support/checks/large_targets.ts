@@ -8,7 +8,7 @@ export const largeTargets: Check = {
     page.evaluate(() => {
       const small: string[] = [];
       for (const control of document.querySelectorAll<HTMLElement>('button, input, select, summary, a[href], textarea, [role=button]')) {
-        // The drawing's spots are too close together for fingers: the list below it has the same points as rows.
+        // The points in the drawing are too close together for fingers; the list below the drawing has each of them as a row.
         if (control.closest('.guide-drawing, .visually-hidden') || control.matches('.visually-hidden, .link')) continue;
         const label = control.closest('label') ?? (control.id === '' ? null : document.querySelector(`label[for="${control.id}"]`));
         const target = label && control.matches('[type=checkbox]') ? label : control;

@@ -12,7 +12,7 @@ export const noEnglish: Check = {
       const texts = [...document.querySelectorAll<HTMLElement>('[aria-label], [title], [placeholder]')].map(
         (one) => `${one.getAttribute('aria-label') ?? ''} ${one.title} ${one.getAttribute('placeholder') ?? ''}`,
       );
-      // Names of heads, streams and parts are whatever their owner called them; programs are in their own languages.
+      // Left out: names of heads, streams and parts, which their owners chose, and the texts of programs.
       const programs = [...document.querySelectorAll<HTMLElement>('pre, code')].map((one) => one.innerText).filter((text) => text !== '');
       const shown = programs.reduce((text, program) => text.replaceAll(program, ''), document.body.innerText);
       return [shown.replaceAll(/Sample head|Demo/g, ''), ...texts.filter((text) => !/Sample head|^Visema/.test(text))].join('\n');
