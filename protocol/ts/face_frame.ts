@@ -50,12 +50,12 @@ export function copyFrame(frame: FaceFrame): FaceFrame {
   return { viseme: { ...frame.viseme }, expression: { ...frame.expression }, levels: frame.levels.slice() };
 }
 
-export function sameViseme(a: VisemeBlend, b: VisemeBlend): boolean {
-  return a.select1 === b.select1 && a.select2 === b.select2 && a.blend === b.blend;
-}
-
-export function sameExpression(a: ExpressionBlend, b: ExpressionBlend): boolean {
+export function sameFrame(a: FaceFrame, b: FaceFrame): boolean {
+  const isSame = <Blend extends object>(one: Blend, other: Blend): boolean =>
+    (Object.keys(one) as (keyof Blend)[]).every((part) => one[part] === other[part]);
   return (
-    a.select1 === b.select1 && a.intensity1 === b.intensity1 && a.select2 === b.select2 && a.intensity2 === b.intensity2
+    isSame(a.viseme, b.viseme) &&
+    isSame(a.expression, b.expression) &&
+    a.levels.every((level, fap) => level === b.levels[fap])
   );
 }

@@ -88,6 +88,27 @@ describe('face driver', () => {
     expect(twin.steps.length + twin.clipTimes.length).toBe(1);
   });
 
+  test('Step_SpeechThatIsPaused_ChangesThePoseOnce_AgainWhenItGoesOn', () => {
+    let now = 40;
+    driver.bySpeech({ clip: new FrameClip(frames), now: () => now });
+    expect([driver.step(0.016), driver.step(0.016)]).toEqual([true, false]);
+    expect(driver.twinMoved).toBe(false);
+    now = 80;
+    expect([driver.step(0.016), driver.step(0.016)]).toEqual([true, false]);
+    driver.setFace(face); // a new head shows the moment as well
+    expect(driver.step(0.016)).toBe(true);
+    expect(face.clipTimes).toEqual([40, 80, 80]);
+  });
+
+  test('Step_MicrophoneThatHearsNothingNew_ChangesThePoseOnce', () => {
+    let heard = frames[0]!.state;
+    driver.byMicrophone(() => heard);
+    expect([driver.step(0.016), driver.step(0.016)]).toEqual([true, false]);
+    heard = frames[2]!.state;
+    expect([driver.step(0.016), driver.step(0.016)]).toEqual([true, false]);
+    expect(face.clipTimes).toEqual([0, 80]);
+  });
+
   test('Start_NothingYet_IsTheHand', () => expect(driver.source.value).toBe('hand'));
 
   test.each(pairs)('Take_From%sBy%s_HasTheFaceAlone', (from, to) => {

@@ -7,7 +7,8 @@ export interface SpokenClip {
   now(): number;
 }
 
+/** ms of the clip to show now. */
+export const positionOf = ({ clip, now }: SpokenClip): number => Math.min(clip.duration, Math.max(0, now()));
+
 /** The moment of a spoken clip to show now. */
-export function momentOf({ clip, now }: SpokenClip): ClipMoment {
-  return clip.momentAt(Math.min(clip.duration, Math.max(0, now())));
-}
+export const momentOf = (spoken: SpokenClip): ClipMoment => spoken.clip.momentAt(positionOf(spoken));

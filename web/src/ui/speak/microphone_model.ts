@@ -1,7 +1,7 @@
 import { Bridges, type Library } from '@client/motion/index.ts';
 import { Microphone, MicrophoneError, type ListenFiles, type MicrophoneFault, type OnHeard } from '@client/listen/index.ts';
 import type { OnPacket, VoiceEncoder } from '../../net/voice_encoder.ts';
-import { copyFrame, type FaceFrame } from '@protocol/face_frame.ts';
+import { copyFrame, sameFrame, type FaceFrame } from '@protocol/face_frame.ts';
 import { messageOf } from '../shared/message_of.ts';
 import { Signal } from '../shared/signal.ts';
 import type { FaceDriver } from '../stage/face_driver.ts';
@@ -125,7 +125,8 @@ export class MicrophoneModel {
       before = time;
       this.delay = delay;
       Object.assign(this.frame.viseme, bridges.fromOculus(weights).frame.viseme);
-      this.shown = copyFrame(this.frame); // a frame that is shown is not changed
+      // A frame that is shown is not changed; the same one again is not drawn anew.
+      if (!sameFrame(this.shown, this.frame)) this.shown = copyFrame(this.frame);
       this.onChange(performance.now() - delay);
     };
   }

@@ -3,7 +3,7 @@ import type { Library } from '@client/motion/index.ts';
 import { ClipPlayer, type Clip } from '../../face/clip.ts';
 import { IdlePlayer } from '../../face/idle_player.ts';
 import type { Performer } from '../../face/performer.ts';
-import { momentOf, type SpokenClip } from '../../face/speech_clock.ts';
+import { momentOf, positionOf, type SpokenClip } from '../../face/speech_clock.ts';
 import { standardQuantizers, type QuantizerSteps } from '@protocol/quantizers.ts';
 import { Signal } from '../shared/signal.ts';
 
@@ -40,6 +40,8 @@ export class FaceDriver {
   /** The speech that had the face last, until a source takes it by an act of the user. */
   private spoken: Clip | null = null;
   private held: FaceFrame | null = null;
+  /** Of the speech its position, ms, of the microphone its frame, which the faces show; null: they are to be posed anew. */
+  private posedAt: number | FaceFrame | null = null;
   private idle: IdlePlayer | null = null;
   private loadIdle: (() => Promise<Library>) | null = null;
 
@@ -112,6 +114,7 @@ export class FaceDriver {
   /** Replaces the face or its level of detail. The current source continues, except `recording`, which ends. */
   setFace(face: DrivenFace | null): void {
     this.face = face;
+    this.posedAt = null;
     face?.listen(this.client);
     face?.follow(this.frame);
     const source = this.source.value;
@@ -122,6 +125,7 @@ export class FaceDriver {
   /** Sets a face that does the same in a second view; null: none. */
   setTwin(twin: DrivenFace | null): void {
     this.twin = twin;
+    this.posedAt = null;
     if (!twin) return;
     twin.listen(this.client);
     const source = this.source.value;
@@ -178,6 +182,9 @@ export class FaceDriver {
     if (!face) return false;
     const source = this.source.value;
     const spoken = source === 'speech' ? this.speech : null;
+    const posed = spoken ? positionOf(spoken) : source === 'microphone' && this.heard ? this.heard() : null;
+    if (posed !== null && posed === this.posedAt) return false; // a paused speech, a silent microphone
+    this.posedAt = posed;
     const moment = spoken ? momentOf(spoken) : source === 'clip' ? clip.step(deltaSeconds) : null;
     if (moment) {
       const steps = (spoken ?? clip).clip?.steps;
@@ -213,6 +220,7 @@ export class FaceDriver {
     if (source !== 'speech') this.speech = null;
     if (source !== 'microphone') this.heard = null;
     this.spoken = null;
+    this.posedAt = null;
     this.source.set(source);
     for (const listener of [...this.listeners]) listener(source);
   }
