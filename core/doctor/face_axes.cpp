@@ -166,6 +166,7 @@ FaceAxes fit_face_axes(const FeaturePointSet& points) {
     if (!marked[id]) continue;
     frame.places[id] = glm::dvec3(glm::dot(*marked[id], x), glm::dot(*marked[id], y), glm::dot(*marked[id], z));
   }
+  frame.symmetry = symmetry_of_points(frame.places);
   return frame;
 }
 

@@ -7,6 +7,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "core/anatomy/point_symmetry.h"
 #include "core/types/feature_points.h"
 
 namespace semblante {
@@ -23,6 +24,9 @@ struct FaceAxes {
   std::optional<double> eye_separation;
   /// Every marked point: x along the model axis nearest to `left`, y to `up`, z to `forward`; model units.
   std::array<std::optional<glm::dvec3>, feature_point_count> places;
+
+  /// The plane of symmetry of `places`, if they have one.
+  std::optional<PointSymmetry> symmetry;
 
   [[nodiscard]] const std::optional<glm::dvec3>& place(FeaturePointId id) const { return places[id.value()]; }
   /// `name` must be one of the 84.

@@ -15,6 +15,8 @@ namespace {
 
 /// FAPs move points along the axes of the model: at 30 degrees half of every movement is along a wrong axis.
 constexpr double most_tilt = 30.0;
+/// Marks of an upright, asymmetric face differ from its axes by 2 degrees; at 8 a seventh of a movement goes astray.
+constexpr double most_turn = 8.0;
 
 double degrees_between(const glm::dvec3& a, const glm::dvec3& b) {
   return std::acos(std::clamp(glm::dot(a, b), -1.0, 1.0)) * 180.0 / std::numbers::pi;
@@ -55,6 +57,34 @@ std::optional<Finding> wrong_axes(const Subject& head) {
   return finding;
 }
 
+/// Of a face within most_tilt. Pitch is not told: the profiles of upright faces differ by as much.
+std::optional<Finding> turned_aside(const Subject& head) {
+  if (!head.frame.symmetry) return std::nullopt;
+  const glm::dvec3 left = head.frame.symmetry->plane.normal;
+  const double tilt = degrees_between(left, {1, 0, 0});
+  if (tilt <= most_turn) return std::nullopt;
+  const auto degrees = [](double radians) { return radians * 180.0 / std::numbers::pi; };
+  const double yaw = degrees(std::atan2(-left.z, left.x));
+  const double roll = degrees(std::asin(std::clamp(left.y, -1.0, 1.0)));
+  const auto about = [](double angle) { return std::to_string(std::lround(std::abs(angle))) + " degrees"; };
+  constexpr double least_told = 2.0;
+  std::string how;
+  if (std::abs(yaw) >= least_told) how = "turned by " + about(yaw) + (yaw > 0.0 ? " to its left" : " to its right");
+  if (std::abs(roll) >= least_told)
+    how += (how.empty() ? "" : " and ") + std::string("tilted by ") + about(roll) +
+           (roll > 0.0 ? " towards its right shoulder" : " towards its left shoulder");
+  Finding finding;
+  finding.code = FindingCode::not_upright;
+  finding.severity = Severity::warning;
+  finding.place.points = ids_of(head.rig.points);
+  finding.words = "the face is " + how + ", by its points, so movements to a side and forward are in wrong directions";
+  finding.remedy =
+      "rotate the model so that the face looks along +Z; if its axes were set by hand, take them back: then it is "
+      "turned by its points";
+  finding.measured = {"degrees between the face's plane of symmetry and the model's", tilt, most_turn};
+  return finding;
+}
+
 std::optional<Finding> exchanged_sides(const Subject& head) {
   const std::vector<FeaturePointId>& swapped = head.frame.swapped;
   if (swapped.empty()) return std::nullopt;
@@ -82,7 +112,11 @@ std::optional<Finding> exchanged_sides(const Subject& head) {
 
 std::vector<Finding> find_wrong_way_round(const Subject& head) {
   std::vector<Finding> findings;
-  if (auto finding = wrong_axes(head)) findings.push_back(std::move(*finding));
+  if (auto finding = wrong_axes(head)) {
+    findings.push_back(std::move(*finding));
+  } else if (auto turned = turned_aside(head)) {
+    findings.push_back(std::move(*turned));
+  }
   if (auto finding = exchanged_sides(head)) findings.push_back(std::move(*finding));
   return findings;
 }

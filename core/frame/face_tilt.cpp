@@ -9,6 +9,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/matrix.hpp>
 
+#include "core/anatomy/point_symmetry.h"
 #include "core/anatomy/reference_heads.h"
 #include "core/tables/mpeg4.h"
 
@@ -37,6 +38,14 @@ bool is_of_the_face(FeaturePointId id) {
 glm::dmat3 rotation_between(const glm::dvec3& from, const glm::dvec3& to) {
   const glm::dvec3 axis = glm::cross(from, to);
   return glm::mat3_cast(glm::normalize(glm::dquat(1.0 + glm::dot(from, to), axis.x, axis.y, axis.z)));
+}
+
+/// The part of the tilt that is not pitch, of a face of any proportions: a creature's points are mirror images too.
+std::optional<glm::dmat3> straight_by_symmetry(const Places& places) {
+  const auto symmetry = symmetry_of_points(places);
+  if (!symmetry) return std::nullopt;
+  const glm::dmat3 straight = rotation_between(symmetry->plane.normal, {1.0, 0.0, 0.0});
+  return degrees_of(straight) >= least_tilt ? std::optional(straight) : std::nullopt;
 }
 
 /// Relative to the spread of the face about its middle.
@@ -78,9 +87,10 @@ std::optional<glm::dmat3> upright_rotation(std::span<const PlacedPoint> points) 
   }
   if (count < least_points || pairs < least_pairs) return std::nullopt;
   const auto fit = fit_to_references(places);
-  if (!fit || degrees_of(fit->rotation) > 90.0) return std::nullopt;
+  if (!fit) return straight_by_symmetry(places);
   const double off = misfit(places, *fit);
-  if (off > most_misfit) return std::nullopt;
+  if (off > most_misfit) return straight_by_symmetry(places);
+  if (degrees_of(fit->rotation) > 90.0) return std::nullopt;
   // fit->rotation = nod * straight, where `straight` is the part without pitch.
   const glm::dvec3 left = glm::transpose(fit->rotation)[0];
   const glm::dmat3 straight = rotation_between(left, {1.0, 0.0, 0.0});

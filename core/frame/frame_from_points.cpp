@@ -153,7 +153,7 @@ void guess_axes(std::span<const PlacedPoint> points, ModelFrame& guess) {
   guess.reasons.push_back(std::move(reason));
   if (is_sure && guess.tilt != glm::dmat3(1.0))
     guess.reasons.push_back("The face is tilted by " + std::to_string(std::lround(tilt_of(guess))) +
-                            " degrees from these axes, by its points and the proportions of faces");
+                            " degrees from these axes, by the symmetry of its points and the proportions of faces");
 }
 
 /// Pupils, or the middles of the eyes' corners.

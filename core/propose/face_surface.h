@@ -9,10 +9,10 @@
 
 #include <glm/vec3.hpp>
 
+#include "core/anatomy/mirror_plane.h"
 #include "core/geometry/similarity.h"
 #include "core/geometry/surface.h"
 #include "core/geometry/triangle_tree.h"
-#include "core/propose/mirror_plane.h"
 #include "core/types/rig.h"
 
 namespace semblante {

@@ -6,8 +6,8 @@
 
 #include <glm/vec3.hpp>
 
+#include "core/anatomy/mirror_plane.h"
 #include "core/propose/face_surface.h"
-#include "core/propose/mirror_plane.h"
 #include "core/types/rig.h"
 
 namespace semblante {

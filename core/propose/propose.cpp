@@ -9,13 +9,13 @@
 #include <glm/matrix.hpp>
 
 #include "core/anatomy/front_points.h"
+#include "core/anatomy/mirror_plane.h"
 #include "core/anatomy/plausible_joints.h"
 #include "core/anatomy/point_lookup.h"
 #include "core/anatomy/point_order.h"
 #include "core/anatomy/rim_points.h"
 #include "core/geometry/similarity.h"
 #include "core/propose/face_surface.h"
-#include "core/propose/mirror_plane.h"
 #include "core/propose/mouth_and_eyes.h"
 #include "core/propose/proportion_guess.h"
 #include "core/propose/quick_set.h"

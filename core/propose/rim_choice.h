@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "core/anatomy/mirror_plane.h"
 #include "core/anatomy/rim_sides.h"
 #include "core/propose/face_surface.h"
-#include "core/propose/mirror_plane.h"
 
 namespace semblante {
 

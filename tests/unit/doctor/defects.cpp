@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <numbers>
 
 #include <glm/geometric.hpp>
 
@@ -15,17 +13,6 @@ namespace semblante::testing {
 namespace {
 
 using Code = FindingCode;
-
-glm::dmat3 turn(int axis, double degrees) {
-  const double angle = degrees * std::numbers::pi / 180.0;
-  glm::dmat3 m(1.0);
-  const int a = (axis + 1) % 3;
-  const int b = (axis + 2) % 3;
-  m[a][a] = m[b][b] = std::cos(angle);
-  m[a][b] = std::sin(angle);
-  m[b][a] = -std::sin(angle);
-  return m;
-}
 
 std::vector<FeaturePointId> ids(std::initializer_list<std::string_view> names) {
   std::vector<FeaturePointId> list;
@@ -87,6 +74,14 @@ std::vector<Defect> make_defects() {
   add("turned_aside", Code::not_upright, [](Head& h) {
     transform(h, turn(1, 50.0));
     return Expected{ids({"2.1", "3.5"}), {}, {}};
+  });
+  add("turned_a_little", Code::not_upright, [](Head& h) {
+    transform(h, turn(1, 15.0));
+    return Expected{ids({"2.1", "3.5"}), {}, {}, "turned by 15 degrees to its left"};
+  });
+  add("tilted_a_little", Code::not_upright, [](Head& h) {
+    transform(h, turn(2, -12.0));
+    return Expected{ids({"2.1", "3.5"}), {}, {}, "tilted by 12 degrees towards its left shoulder"};
   });
   add("mirrored", Code::left_right_swapped, [](Head& h) {
     transform(h, glm::dmat3(-1, 0, 0, 0, 1, 0, 0, 0, 1));

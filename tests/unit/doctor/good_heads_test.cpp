@@ -6,6 +6,7 @@
 
 #include "tests/support/meshes.h"
 #include "tests/unit/doctor/heads.h"
+#include "tests/unit/doctor/spoil.h"
 
 namespace semblante {
 namespace {
@@ -34,6 +35,16 @@ TEST(GoodHeads, OtherPersonsOfOurOwn_HaveNoFinding) {
   for (const char* const name : {"broad", "long", "pressed lips", "body"})
     EXPECT_THAT(lines(testing::examine_with_weights(*testing::head_named(name), WeightMethod::smooth)), IsEmpty())
         << name;
+}
+
+TEST(GoodHeads, TurnedToASide_AreToldSoOnce) {
+  for (const double degrees : {-15.0, 15.0}) {
+    testing::Head head = testing::sample_head();
+    testing::transform(head, testing::turn(1, degrees));
+    EXPECT_THAT(lines(testing::examine_with_weights(head, WeightMethod::smooth)),
+                ElementsAre("warning not-upright 2.1 2.2"))
+        << degrees;
+  }
 }
 
 TEST(GoodHeads, Scan_HasWhatAScanCannotShow) {

@@ -1,8 +1,10 @@
 #include "tests/unit/doctor/spoil.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <set>
 #include <stdexcept>
 
@@ -84,6 +86,17 @@ void unmark(Head& head, std::vector<std::string_view> names) {
 void exchange(Head& head, std::string_view a, std::string_view b) {
   std::swap(point(head, a).vertex, point(head, b).vertex);
   std::swap(point(head, a).position, point(head, b).position);
+}
+
+glm::dmat3 turn(int axis, double degrees) {
+  const double angle = degrees * std::numbers::pi / 180.0;
+  glm::dmat3 m(1.0);
+  const int a = (axis + 1) % 3;
+  const int b = (axis + 2) % 3;
+  m[a][a] = m[b][b] = std::cos(angle);
+  m[a][b] = std::sin(angle);
+  m[b][a] = -std::sin(angle);
+  return m;
 }
 
 void transform(Head& head, const glm::dmat3& by) {

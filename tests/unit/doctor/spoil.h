@@ -33,6 +33,8 @@ void unmark(Head& head, std::vector<std::string_view> names);
 /// Exchanges the points of a pair.
 void exchange(Head& head, std::string_view a, std::string_view b);
 
+/// About an axis (0 is x); positive angles turn the next axis towards the one after it.
+glm::dmat3 turn(int axis, double degrees);
 /// Of the model and the points on it.
 void transform(Head& head, const glm::dmat3& by);
 /// The triangles whose middle is within `radius` of a place.

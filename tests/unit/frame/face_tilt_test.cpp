@@ -72,6 +72,25 @@ TEST(FaceTilt, TiltedHeads_AreTurnedUpright) {
   }
 }
 
+/// Of a length and a breadth that no person has.
+std::vector<PlacedPoint> of_a_creature() {
+  std::vector<PlacedPoint> points = upright_heads().front().points;
+  for (PlacedPoint& point : points) point.position *= glm::dvec3(1.0, 0.5, 2.5);
+  return points;
+}
+
+TEST(FaceTilt, OfACreature_IsThatOfItsPlaneOfSymmetry) {
+  EXPECT_FALSE(upright_rotation(of_a_creature()));
+  for (const glm::dvec3 axis : {glm::dvec3(0, 1, 0), {0, 0, 1}, {0, 1, 1}}) {
+    for (const double degrees : {-20.0, -10.0, 10.0, 20.0}) {
+      const glm::dmat3 in_file = rotation(degrees, axis);
+      const auto upright = upright_rotation(rotated(of_a_creature(), in_file));
+      ASSERT_TRUE(upright) << degrees;
+      EXPECT_LT(error_of(*upright * in_file).across, 1.0) << degrees;
+    }
+  }
+}
+
 TEST(FaceTilt, AHeadThatIsUprightBefore_KeepsItsFrame) {
   const Head head = upright_heads().front();
   auto points = rotated(head.points, rotation(20.0, {0, 0, 1}));

@@ -46,7 +46,7 @@ export const portugueseFindings: Readonly<Record<string, Say>> = {
   ],
   'not-upright': ({ value }) => [
     `O rosto está girado em ${Math.round(value)} graus em relação aos eixos do modelo, e os movimentos vão em direções erradas`,
-    'Gire o modelo para que +Y fique para cima e o rosto olhe para +Z, ou defina os seus eixos',
+    'Gire o modelo para que +Y fique para cima e o rosto olhe para +Z; se só está um pouco virado, deixe os eixos por conta dos pontos, sem eixos definidos à mão; senão, defina-os',
   ],
   'left-right-swapped': ({ points }) => [
     `Esquerda e direita estão trocadas em ${list(points)}; são as do rosto, não as de quem olha, e estes pontos movem o lado errado`,

@@ -75,8 +75,8 @@ export const portugueseRemarks: Sentences = {
   'The feature points stand {up} up, their pairs apart along {axis}, the face towards {front}':
     'Os pontos característicos ficam com {up} para cima, os pares separados ao longo de {axis}, o rosto para {front}',
   '{reason}, but so unclearly that it might be another way': '{reason}, mas isto é tão pouco claro que pode ser de outro modo',
-  'The face is tilted by {tilt} degrees from these axes, by its points and the proportions of faces':
-    'O rosto está inclinado em {tilt} graus em relação a estes eixos, pelos seus pontos e pelas proporções de rostos',
+  'The face is tilted by {tilt} degrees from these axes, by the symmetry of its points and the proportions of faces':
+    'O rosto está inclinado em {tilt} graus em relação a estes eixos, pela simetria dos seus pontos e pelas proporções de rostos',
   "The marked eyes are {length} apart, which is no head's size in m, dm, cm, mm or in":
     'Entre os olhos marcados há {length}, o que não é o tamanho de uma cabeça em m, dm, cm, mm ou in',
   'The marked eyes are {length} apart: {millimetres} mm if the unit is {unit}': 'Entre os olhos marcados há {length}: {millimetres} mm se a unidade é {unit}',

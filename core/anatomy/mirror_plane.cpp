@@ -1,4 +1,4 @@
-#include "core/propose/mirror_plane.h"
+#include "core/anatomy/mirror_plane.h"
 
 #include <algorithm>
 #include <cmath>
