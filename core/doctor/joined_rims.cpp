@@ -1,5 +1,6 @@
 #include "core/anatomy/joined_rims.h"
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
@@ -9,6 +10,18 @@
 #include "core/doctor/words.h"
 
 namespace semblante {
+namespace {
+
+/// How far lids of one skin close before it folds, as a share of their distance; of lids that roll.
+std::optional<double> closed_share(const Subject& head, const Opening& opening) {
+  const auto& lids = head.rig.lids[&opening == &openings[1] ? 0 : 1];
+  const auto& upper = head.frame.place(opening.upper.front());
+  const auto& lower = head.frame.place(opening.lower.front());
+  if (!lids || !upper || !lower || !(upper->y > lower->y)) return std::nullopt;
+  return std::min(1.0, lids->opening / (upper->y - lower->y));
+}
+
+}  // namespace
 
 std::vector<Finding> find_joined_rims(const Subject& head) {
   std::vector<Finding> findings;
@@ -27,12 +40,15 @@ std::vector<Finding> find_joined_rims(const Subject& head) {
       finding.place.vertices.add(head.surface.file_vertex_of[vertex.value()]);
     finding.place.position = 0.5 * (crossing->upper.position + crossing->lower.position);
     const std::string name(opening.name);
-    finding.words = "the " + name + " are joined: from " + to_string(crossing->upper.id) + " to " +
-                    to_string(crossing->lower.id) + " the path along the surface crosses the gap, with " +
-                    percent(crossing->share) + " of the distance around the corner; " +
-                    (opening.is_mouth ? "the mouth opens no farther than the skin between them stretches, and closes"
-                                      : "the eye closes") +
-                    " until it would fold";
+    const std::optional<double> closed = opening.is_mouth ? std::nullopt : closed_share(head, opening);
+    finding.words =
+        "the " + name + " are joined: from " + to_string(crossing->upper.id) + " to " + to_string(crossing->lower.id) +
+        " the path along the surface crosses the gap, with " + percent(crossing->share) +
+        " of the distance around the corner; " +
+        (opening.is_mouth ? "the mouth opens no farther than the skin between them stretches, and closes until it "
+                            "would fold"
+                          : "a blink closes the eye " + (closed ? "by " + percent(*closed) : std::string("only")) +
+                                ", until the skin would fold");
     finding.remedy = "delete the faces that span the gap between the " + name +
                      ", or split the vertices that both share; a head that is one skin there, as a scan, stays so";
     finding.measured = {"path across as a fraction of the distance around the nearer corner", crossing->share,

@@ -19,7 +19,9 @@ namespace {
 
 /// Skin between a lid's point and the eye that is seen, as a share of the distance of both lids' points. On heads whose
 /// points are on the edges it is below 0.1.
-constexpr double fold_share = 0.2;
+constexpr double fold_share = 0.15;
+/// Of ES0, 1.3 mm: of eyes that are nearly shut the least skin is a great share.
+constexpr double least_fold = 0.02;
 /// Heights at which the front of the face is looked at.
 constexpr int steps = 64;
 
@@ -113,6 +115,8 @@ std::vector<Finding> find_points_off_lid_edge(const Subject& head) {
       if (is_misplaced(head.misplaced, point.id)) continue;
       const auto edge = edge_beyond(head, point, is_upper ? *lower : *upper);
       if (!edge || edge->share < fold_share) continue;
+      if (edge->share * (upper->position.y - lower->position.y) < least_fold * head.frame.eye_separation.value_or(0.0))
+        continue;
       const auto vertex = nearest_free(head, points, point, edge->place);
       const double before = glm::distance(point.position, edge->place);
       if (!vertex || glm::distance(head.surface.positions[vertex->value()], edge->place) > 0.5 * before) continue;

@@ -56,6 +56,17 @@ TEST(GoodHeads, Scan_HasWhatAScanCannotShow) {
                           "note eye-cannot-turn 3.6", "note missing-points 6.1 6.2", "note missing-points 9.8 9.9"));
 }
 
+TEST(GoodHeads, Scan_IsToldHowFarItsEyesClose) {
+  const Report report = testing::examine_with_weights(*testing::head_named("scan"), WeightMethod::smooth);
+  std::size_t told = 0;
+  for (const Finding& finding : report.findings) {
+    if (finding.code != FindingCode::lids_joined) continue;
+    EXPECT_THAT(finding.words, ::testing::ContainsRegex("a blink closes the eye by [0-9]+ %, until the skin would"));
+    ++told;
+  }
+  EXPECT_EQ(told, 2U);
+}
+
 TEST(GoodHeads, Sample_LeaksWithTheWeightsOfThePaperAlone) {
   // A vertex of one lip is partly led by the points of the other: Eq. 3 knows no slit (core/expressions/README.md).
   EXPECT_THAT(lines(testing::examine_with_weights(testing::sample_head(), WeightMethod::paper)),
