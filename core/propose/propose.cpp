@@ -14,6 +14,7 @@
 #include "core/anatomy/point_lookup.h"
 #include "core/anatomy/point_order.h"
 #include "core/anatomy/rim_points.h"
+#include "core/anatomy/seen_lid_edge.h"
 #include "core/geometry/similarity.h"
 #include "core/propose/face_surface.h"
 #include "core/propose/mouth_and_eyes.h"
@@ -113,6 +114,7 @@ class Proposer {
         frame_(frame),
         known_(known),
         face_(surface, parts, frame, triangles),
+        triangles_(triangles),
         references_(references) {
     if (head_joint) head_joint_ = frame(glm::dvec3(head_joint->position));
     for (const FeaturePoint& point : known) {
@@ -133,6 +135,7 @@ class Proposer {
       }
     }
     correct_sides();
+    correct_lid_edges();
     std::sort(proposals_.points.begin(), proposals_.points.end(),
               [](const Proposal& a, const Proposal& b) { return a.point.id < b.point.id; });
     std::sort(proposals_.not_proposed.begin(), proposals_.not_proposed.end(),
@@ -221,6 +224,35 @@ class Proposer {
       const double off = glm::distance(face_.at(vertex), *settled_[id]);
       settle(id, {face_.at(vertex), vertex}, method, std::max(guesses_[id]->error, 0.5 * off),
              "the surface is too coarse here to distinguish " + sides_in_words(*misplaced.opening));
+    }
+  }
+
+  /// Middles of lids that do not lie on the edges, as mirror images where one eye is higher than the other.
+  void correct_lid_edges() {
+    for (const mpeg4::Opening& opening : mpeg4::openings) {
+      if (opening.is_mouth) continue;
+      const std::size_t upper = index_of(opening.upper.front());
+      const std::size_t lower = index_of(opening.lower.front());
+      if (!settled_[upper] || !settled_[lower] || settled_[upper]->y <= settled_[lower]->y) continue;
+      for (const std::size_t id : {upper, lower}) {
+        const auto at = std::find_if(proposals_.points.begin(), proposals_.points.end(),
+                                     [&](const Proposal& p) { return p.point.id == id_of(id); });
+        if (at == proposals_.points.end()) continue;
+        constexpr double around = 0.15;
+        const glm::dvec3 expected = images_[id] ? *images_[id] : guesses_[id]->place;
+        const auto eye = seen_eye(surface_, parts_, triangles_, frame_, expected.x, settled_[lower]->y - around,
+                                  settled_[upper]->y + around);
+        if (!eye) continue;
+        const glm::dvec3& edge = id == upper ? eye->upper : eye->lower;
+        const glm::dvec3 before = *settled_[id];
+        if (is_on_edge(before.y - edge.y, eye->upper.y - eye->lower.y, 1.0)) continue;
+        const double error = guesses_[id]->error;
+        const auto nearest = nearest_vertex(id, PartRole::skin, edge, error);
+        if (!nearest || glm::distance(face_.at(nearest->vertex), edge) > 0.5 * glm::distance(before, edge)) continue;
+        if (at->point.vertex) taken_.erase(surface_.surface_of[at->point.vertex->value()].value());
+        proposals_.points.erase(at);
+        settle(id, {face_.at(nearest->vertex), nearest->vertex}, ProposalMethod::shape, error, nearest->doubt);
+      }
     }
   }
 
@@ -340,6 +372,7 @@ class Proposer {
   Similarity frame_;
   const FeaturePointSet& known_;
   FaceSurface face_;
+  std::span<const Triangle> triangles_;  ///< of file vertices, may be empty
   std::span<const ReferenceHead> references_;
   std::optional<glm::dvec3> head_joint_;
   MirrorPlane plane_;

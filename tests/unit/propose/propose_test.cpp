@@ -1,6 +1,7 @@
 #include "core/propose/propose.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -125,6 +126,33 @@ TEST_F(Propose, PutsTheBossOfTheChinBelowTheLowerLip) {
   ASSERT_NE(chin, nullptr);
   EXPECT_LT(chin->point.position.y, model_.positions[lip].y + 0.03F * 0.064F);
   EXPECT_LT(model_.positions[lip].y, boss.y - 0.05F * 0.064F);
+}
+
+// The mirror image of the lower left lid lies on the fold below the lower lid.
+TEST_F(Propose, PutsLidsOnTheirEdges_OfAnEyeThatIsHigherThanTheOther) {
+  const auto point = [&](const char* name) -> FeaturePoint& {
+    return *std::find_if(all_.begin(), all_.end(), [&](const FeaturePoint& p) { return p.id == fp(name); });
+  };
+  const double unit = glm::distance(point("3.5").position, point("3.6").position);
+  const glm::dvec3 eye(point("3.6").position);
+  for (glm::vec3& p : model_.positions) {
+    const double off = glm::length(glm::dvec2(p) - glm::dvec2(eye)) / unit;
+    p.y += static_cast<float>(0.09 * unit * std::exp(-3.0 * off * off * off * off));
+  }
+  for (FeaturePoint& p : all_) {
+    if (p.vertex) p.position = model_.positions[p.vertex->value()];
+  }
+  surface_ = build_surface(model_);
+  const FeaturePointSet known = some(quick_set);
+  const auto proposals = propose_feature_points(surface_, describe_parts(model_, surface_, known), known,
+                                                reference_heads(), {}, model_.triangles);
+  ASSERT_TRUE(proposals);
+  const double open = point("3.2").position.y - point("3.4").position.y;
+  for (const char* const name : {"3.2", "3.4"}) {
+    const Proposal* const lid = find(*proposals, fp(name));
+    ASSERT_NE(lid, nullptr);
+    EXPECT_LT(std::abs(lid->point.position.y - point(name).position.y), 0.25 * open) << name;
+  }
 }
 
 TEST_F(Propose, NothingWhenAllAreKnown) {

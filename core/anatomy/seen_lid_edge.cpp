@@ -1,0 +1,115 @@
+#include "core/anatomy/seen_lid_edge.h"
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace semblante {
+namespace {
+
+/// Of ES0, 1.3 mm: of eyes that are nearly shut the least skin is a great share.
+constexpr double least_fold = 0.02;
+/// Heights at which the front of the face is looked at.
+constexpr int steps = 64;
+
+/// What is seen straight from the front in the plane of one x: the nearest surface at each height.
+class FrontColumn {
+ public:
+  FrontColumn(const Surface& surface, std::span<const Part> parts, std::span<const Triangle> triangles,
+              const Similarity& frame, double x) {
+    const auto place_of = [&](std::uint32_t file_vertex) {
+      return frame(surface.positions[surface.surface_of[file_vertex].value()]);
+    };
+    for (const Triangle& t : triangles) {
+      const PartRole role = parts[surface.part_of[surface.surface_of[t[0]].value()].value()].role;
+      const bool is_skin = role == PartRole::skin;
+      if (!is_skin && role != PartRole::left_eye && role != PartRole::right_eye) continue;
+      std::vector<glm::dvec3> cut;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const glm::dvec3 a = place_of(t[k]);
+        const glm::dvec3 b = place_of(t[(k + 1) % 3]);
+        if ((a.x < x) != (b.x < x)) cut.push_back(a + (x - a.x) / (b.x - a.x) * (b - a));
+      }
+      if (cut.size() == 2) pieces_.push_back({cut[0], cut[1], is_skin});
+    }
+  }
+
+  struct Seen {
+    bool is_skin = false;
+    double z = -std::numeric_limits<double>::infinity();
+  };
+  [[nodiscard]] std::optional<Seen> at(double y) const {
+    std::optional<Seen> nearest;
+    for (const auto& [a, b, is_skin] : pieces_) {
+      if ((a.y < y) == (b.y < y)) continue;
+      const double z = a.z + (y - a.y) / (b.y - a.y) * (b.z - a.z);
+      if (!nearest || z > nearest->z) nearest = Seen{is_skin, z};
+    }
+    return nearest;
+  }
+
+ private:
+  struct Piece {
+    glm::dvec3 a, b;
+    bool is_skin;
+  };
+  std::vector<Piece> pieces_;
+};
+
+}  // namespace
+
+std::optional<SeenLidEdge> seen_lid_edge(const Surface& surface, std::span<const Part> parts,
+                                         std::span<const Triangle> triangles, const Similarity& frame,
+                                         const glm::dvec3& point, const glm::dvec3& other) {
+  const FrontColumn column(surface, parts, triangles, frame, point.x);
+  SeenLidEdge edge{point, 0.0, std::abs(other.y - point.y)};
+  for (int k = 1; k < steps; ++k) {
+    const double share = static_cast<double>(k) / steps;
+    const double y = point.y + share * (other.y - point.y);
+    const auto seen = column.at(y);
+    if (!seen) return std::nullopt;
+    if (!seen->is_skin) return edge;
+    edge.place = {point.x, y, seen->z};
+    edge.share = share;
+  }
+  return std::nullopt;
+}
+
+std::optional<SeenEye> seen_eye(const Surface& surface, std::span<const Part> parts,
+                                std::span<const Triangle> triangles, const Similarity& frame, double x, double low,
+                                double high) {
+  const FrontColumn column(surface, parts, triangles, frame, x);
+  constexpr int heights = 2 * steps;
+  std::vector<std::optional<FrontColumn::Seen>> seen;
+  const auto height_of = [&](int k) { return high + (low - high) * static_cast<double>(k) / heights; };
+  for (int k = 0; k <= heights; ++k) seen.push_back(column.at(height_of(k)));
+  const auto is_eye = [&](int k) {
+    return seen[static_cast<std::size_t>(k)] && !seen[static_cast<std::size_t>(k)]->is_skin;
+  };
+  int upper = 0;  // the skin above the greatest span, and below it
+  int lower = 0;
+  for (int k = 1; k < heights; ++k) {
+    if (!is_eye(k) || is_eye(k - 1)) continue;
+    int end = k;
+    while (end < heights && is_eye(end)) ++end;
+    if (is_eye(end) || !seen[static_cast<std::size_t>(k - 1)] || !seen[static_cast<std::size_t>(end)]) continue;
+    if (end - (k - 1) > lower - upper) {
+      upper = k - 1;
+      lower = end;
+    }
+  }
+  if (lower == upper) return std::nullopt;
+  const auto place_of = [&](int k) { return glm::dvec3(x, height_of(k), seen[static_cast<std::size_t>(k)]->z); };
+  return SeenEye{place_of(upper), place_of(lower)};
+}
+
+bool is_on_edge(double off, double open, double eye_separation) {
+  return std::abs(off) < least_share_of_fold * open || std::abs(off) < least_fold * eye_separation;
+}
+
+bool is_on_fold(const SeenLidEdge& edge, double eye_separation) {
+  return edge.share >= least_share_of_fold && edge.share * edge.way >= least_fold * eye_separation;
+}
+
+}  // namespace semblante
