@@ -47,8 +47,8 @@ std::vector<Finding> find_joined_rims(const Subject& head) {
         " of the distance around the corner; " +
         (opening.is_mouth ? "the mouth opens no farther than the skin between them stretches, and closes until it "
                             "would fold"
-                          : "a blink closes the eye " + (closed ? "by " + percent(*closed) : std::string("only")) +
-                                ", until the skin would fold");
+                          : "a blink closes the eye " + (closed ? "by " + percent(*closed) + ", " : std::string()) +
+                                "until the skin would fold");
     finding.remedy = "delete the faces that span the gap between the " + name +
                      ", or split the vertices that both share; a head that is one skin there, as a scan, stays so";
     finding.measured = {"path across as a fraction of the distance around the nearer corner", crossing->share,
