@@ -54,6 +54,16 @@ Status check_positions(const Model& model) {
   return Unit{};
 }
 
+/// Those of the file are finite; a texture's transform can make them infinite, which no reader of glTF takes.
+Status check_uvs(const Model& model) {
+  for (std::size_t i = 0; i < model.uvs.size(); ++i) {
+    if (std::abs(model.uvs[i].x) <= max_coordinate && std::abs(model.uvs[i].y) <= max_coordinate) continue;
+    return Error{ErrorCode::out_of_range, "texture coordinate " + std::to_string(i),
+                 "a texture coordinate is larger than 1e15"};
+  }
+  return Unit{};
+}
+
 /// A displacement has the same bound as a position, because it has the same transforms.
 Status check_examples(const Model& model) {
   for (const Example& example : model.examples) {
@@ -111,6 +121,7 @@ void ModelBuilder::add_triangle(const Corner& a, const Corner& b, const Corner& 
 
 Result<Model> ModelBuilder::finish(std::string format) && {
   if (Status status = check_positions(model); !status) return status.error();
+  if (Status status = check_uvs(model); !status) return status.error();
   if (Status status = check_examples(model); !status) return status.error();
   if (model.triangles.empty() && (limits_.needs_triangles || model.positions.empty())) {
     return Error{ErrorCode::empty, "",

@@ -134,6 +134,15 @@ TEST(TextureTransform, OfTheBaseColour_IsInTheUvs) {
   EXPECT_TRUE(model->warnings.empty());
 }
 
+TEST(TextureTransform, BeyondFloat32_IsRefused) {
+  for (const double scale : {1e16, 1e39, -1e300}) {
+    const auto model = textured({{"scale", {scale, 1}}}, nullptr).import();
+    ASSERT_FALSE(model) << scale;
+    EXPECT_EQ(static_cast<int>(model.error().code), static_cast<int>(ErrorCode::out_of_range));
+    EXPECT_EQ(model.error().where, "texture coordinate 1");
+  }
+}
+
 TEST(TextureTransform, NormalMapThatLiesOtherwise_IsLeftOut_WithAWarning) {
   const auto model = textured(nullptr, {{"scale", {2, 2}}}).import();
   ASSERT_TRUE(model) << model.error().message;

@@ -24,6 +24,7 @@ export const portugueseDetails: Sentences = {
   'all triangles are at one point': 'todos os triângulos estão num ponto só',
   'a coordinate is not a finite number': 'uma coordenada não é um número finito',
   'a coordinate is larger than 1e15': 'uma coordenada é maior que 1e15',
+  'a texture coordinate is larger than 1e15': 'uma coordenada de textura é maior que 1e15',
   'more than {limit} triangles': 'mais de {limit} triângulos',
   'more than {limit} materials': 'mais de {limit} materiais',
   'more than {limit} morph targets': 'mais de {limit} morph targets',
