@@ -74,6 +74,7 @@ class PrimitiveData {
 
   [[nodiscard]] bool has(const char* attribute) const { return attributes_.has(attribute); }
 
+  /// Of this primitive; what the file may still have is not checked.
   [[nodiscard]] std::size_t vertex_count(std::size_t max) const {
     if (draco_ && in_draco("POSITION")) return draco_->point_count();
     const auto accessor = accessor_of("POSITION");
@@ -174,7 +175,7 @@ class GltfReader {
       return;
     }
     const std::size_t vertices_left = builder_.limits().max_vertices - builder_.model.positions.size();
-    const std::size_t count = data.vertex_count(vertices_left);
+    const std::size_t count = data.vertex_count(builder_.limits().max_vertices);
     if (count > vertices_left)
       primitive.fail(ErrorCode::too_large, "has " + std::to_string(count) + " vertices, only " +
                                                std::to_string(vertices_left) + " more are allowed");

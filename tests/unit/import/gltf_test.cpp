@@ -379,6 +379,8 @@ TEST(Gltf, PrimitivesOverOneAccessor_CountTowardsTheLimit) {
   auto model = import_json(json, limits);
   ASSERT_FALSE(model);
   EXPECT_EQ(static_cast<int>(model.error().code), static_cast<int>(ErrorCode::too_large));
+  EXPECT_EQ(model.error().where, "/meshes/0/primitives/10");
+  EXPECT_EQ(model.error().message, "has 4 vertices, only 3 more are allowed");
   limits.max_vertices = 44;
   model = import_json(json, limits);
   ASSERT_TRUE(model);
