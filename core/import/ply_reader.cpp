@@ -20,6 +20,19 @@ class PlyReader {
       : header_(header), source_(bytes, header), builder_(limits), limits_(limits) {}
 
   Result<Model> read() {
+    auto model = read_elements();
+    if (!source_.misplaced()) return model;
+    // Values that follow a missing one are read as others than they are: what is then found wrong is not the fault.
+    const std::string fault =
+        "an element ends before its line does: a value in or before it may be missing or too many";
+    if (!model && model.error().code != ErrorCode::too_large)
+      return Error{ErrorCode::malformed, *source_.misplaced(), fault};
+    if (model) model->warnings.push_back(*source_.misplaced() + ": " + fault);
+    return model;
+  }
+
+ private:
+  Result<Model> read_elements() {
     for (const PlyElement& element : header_.elements) {
       const std::size_t least = element.least_bytes(header_.is_text);
       // The last value of a text may have no blank after it.
@@ -45,7 +58,6 @@ class PlyReader {
     return std::move(builder_).finish("ply");
   }
 
- private:
   static std::optional<std::array<std::size_t, 2>> find_uv(const PlyElement& element) {
     static constexpr std::array<std::array<std::string_view, 2>, 4> names = {
         {{"s", "t"}, {"u", "v"}, {"texture_u", "texture_v"}, {"texture_s", "texture_t"}}};
@@ -117,6 +129,7 @@ class PlyReader {
       if (!size) return size.error();
       for (std::size_t i = 0; i < *size && !source_.fault(); ++i) source_.next(property.type);
     }
+    source_.end_element();
     return Unit{};
   }
 
@@ -152,6 +165,7 @@ class PlyReader {
         }
         if (Status status = (this->*read)(size, property.type); !status) return status;
       }
+      source_.end_element();
     }
     return Unit{};
   }

@@ -23,6 +23,13 @@ class PlyValues {
   /// The number of items of a list, checked against the unread bytes.
   Result<std::size_t> list_size(const PlyProperty& list);
 
+  /// Of a text: an element has been read, and its line should end here. Its place is kept if it does not.
+  void end_element() {
+    if (is_text_ && !misplaced_ && line_.find_first_not_of(" \t\r") != std::string_view::npos) misplaced_ = where();
+  }
+  /// The first line of a text in which an element ended before the line did.
+  [[nodiscard]] const std::optional<std::string>& misplaced() const { return misplaced_; }
+
   /// A lower bound of the unread bytes; limits every declared count.
   [[nodiscard]] std::size_t left() const { return is_text_ ? line_.size() + 1 + lines_.rest().size() : data_.left(); }
   [[nodiscard]] const std::optional<Error>& fault() const { return fault_; }
@@ -38,6 +45,7 @@ class PlyValues {
   LineReader lines_;
   std::string_view line_;
   std::size_t header_lines_;
+  std::optional<std::string> misplaced_;
   std::optional<Error> fault_;
 };
 

@@ -190,6 +190,22 @@ TEST(Ply, BinaryPosition_ThatIsNaN_IsRefused) {
   EXPECT_EQ(static_cast<int>(model.error().code), static_cast<int>(ErrorCode::not_finite));
 }
 
+TEST(Ply, ElementsThatDoNotEndWithTheirLines_AreTold) {
+  const std::string good = text_of(quad_ply_text());
+  const auto warnings_of = [&](const char* what, const char* with) {
+    const auto model = import_model(to_bytes(replaced(good, what, with)), ModelFormat::ply);
+    return model ? model->warnings : std::vector<std::string>{model.error().where + ": " + model.error().message};
+  };
+  EXPECT_TRUE(warnings_of("comment", "comment").empty());
+  EXPECT_TRUE(warnings_of("\n1 1 0 1 1\n", "\n1 1\n0 1 1\n").empty()) << "in two lines, but whole";
+  const std::string fault =
+      ": an element ends before its line does: a value in or before it may be missing or too many";
+  EXPECT_EQ(warnings_of("\n1 1 0 1 1\n", "\n1 1 0 1\n"), std::vector<std::string>{"line 16" + fault})
+      << "without its last value: the face would refer to a vertex that is not there";
+  EXPECT_EQ(warnings_of("4 0 1 2 3\n", "4 0 1 2 3 7\n"), std::vector<std::string>{"line 17" + fault})
+      << "a value too many, after which nothing follows";
+}
+
 class InvalidStl : public ::testing::TestWithParam<InvalidPlyOrStl> {};
 
 TEST_P(InvalidStl, IsRefused_NamingTheLine) {

@@ -44,6 +44,7 @@ export const portugueseDetails: Sentences = {
   'not an OBJ file: it contains zero bytes, but an OBJ file is text': 'não é um arquivo OBJ: contém bytes zero, e um arquivo OBJ é texto',
   'not an OBJ statement, and the file has no faces': 'não é uma instrução de OBJ, e o arquivo não tem faces',
   "not a PLY file: the first line must be 'ply'": "não é um arquivo PLY: a primeira linha deve ser 'ply'",
+  'an element ends before its line does: a value in or before it may be missing or too many': 'um elemento acaba antes da sua linha: pode faltar ou sobrar um valor nela ou antes dela',
   'PLY format {kind} is not supported': 'o formato PLY {kind} não é suportado',
   'the data ends before the last element that the header declares': 'os dados acabam antes do último elemento que o cabeçalho declara',
   'the header declares {count} vertices, at most {limit} are allowed': 'o cabeçalho declara {count} vértices; são aceitos no máximo {limit}',
