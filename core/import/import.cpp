@@ -51,8 +51,8 @@ std::optional<ModelFormat> detect_format(std::span<const std::uint8_t> bytes, st
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   const std::size_t begin = std::min(text.find_first_not_of(" \t\r\n"), text.size());
   if (text.substr(begin).starts_with('{')) return ModelFormat::gltf;
-  const bool is_solid = text.substr(begin).starts_with("solid");
-  if (is_solid && text.substr(begin, 4096).find("facet") != std::string_view::npos) return ModelFormat::stl;
+  const std::string head = import::lower_case(text.substr(begin, 4096));
+  if (head.starts_with("solid") && head.find("facet") != std::string::npos) return ModelFormat::stl;
   if (const auto named = format_of_name(file_name)) return named;
   if (looks_like_obj(text)) return ModelFormat::obj;
   return std::nullopt;

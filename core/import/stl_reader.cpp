@@ -82,7 +82,8 @@ Result<Model> read_text(std::string_view text, const ImportLimits& limits) {
     return Error{code, lines.where(), std::move(message)};
   };
   while (auto line = lines.next()) {
-    const std::string_view keyword = next_token(*line);
+    const std::string_view word = next_token(*line);
+    const std::string keyword = lower_case(word);  // some programs write them in upper case
     if (keyword == "vertex") {
       if (corner_count == 3) return error(ErrorCode::malformed, "a facet has more than 3 corners");
       glm::vec3 position(0.0F);
@@ -111,7 +112,7 @@ Result<Model> read_text(std::string_view text, const ImportLimits& limits) {
     } else if (keyword == "endsolid") {
       ended = true;
     } else if (!keyword.empty() && keyword != "facet" && keyword != "outer" && keyword != "endloop") {
-      return error(ErrorCode::malformed, shown(keyword) + " is no word of an STL");
+      return error(ErrorCode::malformed, shown(word) + " is no word of an STL");
     }
   }
   if (!ended || corner_count != 0) return error(ErrorCode::truncated, "the STL ends without 'endsolid'");
@@ -125,10 +126,9 @@ Result<Model> read_stl(std::span<const std::uint8_t> bytes, const ImportLimits& 
   // beginning.
   const std::string_view text = as_text(bytes);
   const std::size_t begin = std::min(text.find_first_not_of(" \t\r\n"), text.size());
-  const std::string_view head = text.substr(begin, 4096);
-  const bool is_text =
-      head.starts_with("solid") && head.find('\0') == std::string_view::npos &&
-      (head.find("facet") != std::string_view::npos || head.find("endsolid") != std::string_view::npos);
+  const std::string head = lower_case(text.substr(begin, 4096));
+  const bool is_text = head.starts_with("solid") && head.find('\0') == std::string::npos &&
+                       (head.find("facet") != std::string::npos || head.find("endsolid") != std::string::npos);
   return is_text ? read_text(text, limits) : read_binary(bytes, limits);
 }
 

@@ -263,6 +263,17 @@ TEST(Stl, CornersAtOnePosition_AreOneVertex_InOrderOfAppearance) {
   EXPECT_FALSE(std::signbit(model->positions[0].x));
 }
 
+TEST(Stl, WordsInUpperCase_AreWordsToo) {
+  std::string text = text_of(quad_stl_text());
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; });
+  const Bytes bytes = to_bytes(text);
+  EXPECT_EQ(detect_format(bytes, ""), ModelFormat::stl);
+  const auto model = import_model(bytes, ModelFormat::stl);
+  ASSERT_TRUE(model) << model.error().message;
+  EXPECT_EQ(model->triangles.size(), 2U);
+}
+
 TEST(Stl, BinaryFile_ThatBeginsWithSolid_IsBinary) {
   Bytes bytes = quad_stl_binary();
   std::copy_n("solid facet", 11, bytes.begin());
