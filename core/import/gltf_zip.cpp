@@ -11,13 +11,7 @@
 namespace semblante::import {
 namespace {
 
-std::string lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return text;
-}
-
-bool has_ending(std::string name, std::string_view ending) { return lower_case(std::move(name)).ends_with(ending); }
+bool has_ending(std::string_view name, std::string_view ending) { return lower_case(name).ends_with(ending); }
 
 /// The only entry with this ending; nullopt when there is none. Resource forks added by macOS are ignored.
 Result<std::optional<std::string>> only_entry(const std::vector<std::string>& names, std::string_view ending) {
@@ -38,12 +32,12 @@ std::optional<std::string> find_entry(const std::vector<std::string>& names, con
                                       std::string_view path) {
   auto resolved = resolve_below(folder, path);
   if (resolved && std::find(names.begin(), names.end(), *resolved) != names.end()) return resolved;
-  const std::string name = lower_case(std::string(path.substr(path.find_last_of("/\\") + 1)));  // npos + 1 is 0
+  const std::string name = lower_case(path.substr(path.find_last_of("/\\") + 1));  // npos + 1 is 0
   if (name.empty()) return std::nullopt;
   std::optional<std::string> found;
   for (const std::string& entry : names) {
     const std::string_view last = std::string_view(entry).substr(entry.rfind('/') + 1);
-    if (last.size() != name.size() || lower_case(std::string(last)) != name) continue;
+    if (last.size() != name.size() || lower_case(last) != name) continue;
     if (found) return std::nullopt;
     found = entry;
   }
@@ -57,7 +51,7 @@ std::string folder_of(const std::string& name) {
 }  // namespace
 
 Result<Model> read_gltf_zip(std::span<const std::uint8_t> bytes, const ImportLimits& limits) {
-  const auto archive = ZipArchive::open(bytes);
+  auto archive = ZipArchive::open(bytes, limits.max_file_bytes);
   if (!archive) return archive.error();
   const std::vector<std::string> names = archive->names();
   std::optional<std::string> name;
@@ -74,18 +68,12 @@ Result<Model> read_gltf_zip(std::span<const std::uint8_t> bytes, const ImportLim
   const auto model = archive->read(*name, limits.max_file_bytes);
   if (!model) return model.error();
   const std::string folder = folder_of(*name);
-  std::size_t left = limits.max_file_bytes - model->size();
-  const auto read = [&](const std::string& entry, std::size_t max_bytes) {
-    auto resource = archive->read(entry, std::min(max_bytes, left));
-    if (resource) left -= resource->size();
-    return resource;
-  };
   if (is_obj) {
     return read_obj(*model, limits,
                     [&](std::string_view path, std::size_t max_bytes) -> Result<std::vector<std::uint8_t>> {
                       const auto entry = find_entry(names, folder, path);
                       if (!entry) return Error{ErrorCode::missing, "", "the zip has no such file"};
-                      return read(*entry, max_bytes);
+                      return archive->read(*entry, max_bytes);
                     });
   }
   const auto resources = [&](std::string_view uri, std::size_t max_bytes) -> Result<std::vector<std::uint8_t>> {
@@ -93,7 +81,7 @@ Result<Model> read_gltf_zip(std::span<const std::uint8_t> bytes, const ImportLim
     if (!entry) {
       return Error{ErrorCode::unsupported, "", "refers to " + shown(uri) + ", which is outside of the zip"};
     }
-    return read(*entry, max_bytes);
+    return archive->read(*entry, max_bytes);
   };
   return has_ending(*name, ".gltf") ? read_gltf(as_text(*model), limits, resources)
                                     : read_glb(*model, limits, resources);

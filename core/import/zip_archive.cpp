@@ -1,5 +1,6 @@
 #include "core/import/zip_archive.h"
 
+#include <algorithm>
 #include <zip.h>
 
 #include "core/import/text.h"
@@ -24,7 +25,7 @@ struct CloseFile {
 
 void ZipArchive::Close::operator()(zip* archive) const { zip_discard(archive); }
 
-Result<ZipArchive> ZipArchive::open(std::span<const std::uint8_t> bytes) {
+Result<ZipArchive> ZipArchive::open(std::span<const std::uint8_t> bytes, std::size_t max_total_bytes) {
   // Each entry has one of these in the directory; libzip would allocate about 200 bytes for each.
   if (count_of(as_text(bytes), "PK\x01\x02") > max_entries) {
     return Error{ErrorCode::too_large, "", "the zip has more than " + std::to_string(max_entries) + " entries"};
@@ -40,7 +41,7 @@ Result<ZipArchive> ZipArchive::open(std::span<const std::uint8_t> bytes) {
     return Error{ErrorCode::malformed, "", "the zip cannot be read: " + printable(reason)};
   }
   zip_error_fini(&fault);
-  return ZipArchive(archive);
+  return ZipArchive(archive, max_total_bytes);
 }
 
 std::vector<std::string> ZipArchive::names() const {
@@ -55,26 +56,41 @@ std::vector<std::string> ZipArchive::names() const {
   return names;
 }
 
-Result<std::vector<std::uint8_t>> ZipArchive::read(const std::string& name, std::size_t max_bytes) const {
-  const zip_int64_t index = zip_name_locate(archive_.get(), name.c_str(), ZIP_FL_ENC_GUESS);
-  if (index < 0) return Error{ErrorCode::missing, "", "the zip has no entry " + shown(name)};
-  const std::unique_ptr<zip_file_t, CloseFile> file(
-      zip_fopen_index(archive_.get(), static_cast<zip_uint64_t>(index), 0));
+Result<std::vector<std::uint8_t>> ZipArchive::read(const std::string& name, std::size_t max_bytes) {
+  const zip_int64_t found = zip_name_locate(archive_.get(), name.c_str(), ZIP_FL_ENC_GUESS);
+  if (found < 0) return Error{ErrorCode::missing, "", "the zip has no entry " + shown(name)};
+  const auto index = static_cast<zip_uint64_t>(found);
+  const auto too_large = [&] {
+    return Error{
+        ErrorCode::too_large, "",
+        max_bytes <= left_
+            ? "the zip's entry " + shown(name) + " inflates to more than " + std::to_string(max_bytes) + " bytes"
+            : "the zip's files inflate to more than " + std::to_string(max_total_bytes_) + " bytes together"};
+  };
+  const std::size_t limit = std::min(max_bytes, left_);
+  // An honest size saves the work; a smaller one than the true one is not trusted.
+  zip_stat_t facts;
+  zip_stat_init(&facts);
+  if (zip_stat_index(archive_.get(), index, 0, &facts) == 0 && (facts.valid & ZIP_STAT_SIZE) != 0 && facts.size > limit)
+    return too_large();
+  const std::unique_ptr<zip_file_t, CloseFile> file(zip_fopen_index(archive_.get(), index, 0));
   if (file == nullptr) {
     return Error{ErrorCode::unsupported, "",
                  "the zip's entry " + shown(name) + " cannot be opened: " + printable(zip_strerror(archive_.get()))};
   }
-  // The declared size of the entry is not trusted; the buffer grows with the inflated data.
+  // The buffer grows with the inflated data.
   std::vector<std::uint8_t> bytes;
   constexpr std::size_t step = std::size_t{1} << 16;
   while (true) {
     const std::size_t size = bytes.size();
-    if (size > max_bytes) {
-      return Error{ErrorCode::too_large, "",
-                   "the zip's entry " + shown(name) + " inflates to more than " + std::to_string(max_bytes) + " bytes"};
+    if (size > limit) {
+      const Error error = too_large();
+      left_ -= limit;
+      return error;
     }
     bytes.resize(size + step);
     const zip_int64_t got = zip_fread(file.get(), bytes.data() + size, step);
+    if (got <= 0) left_ -= size;
     if (got < 0) return Error{ErrorCode::malformed, "", "the zip's entry " + shown(name) + " is damaged"};
     bytes.resize(size + static_cast<std::size_t>(got));
     if (got == 0) return bytes;

@@ -386,6 +386,42 @@ TEST(Zip, InvalidArchives_AreRefused) {
   EXPECT_EQ(code_of(make_zip(many)), static_cast<int>(ErrorCode::too_large)) << "entries";
 }
 
+/// A zip of the quad whose material has two images, the second of 100 bytes; the size of the first is `declared`.
+Bytes zip_with_a_large_image(std::size_t size, std::uint32_t declared) {
+  Bytes small = png_of(4, 4);
+  small.resize(100);
+  Bytes bytes = make_zip({{"head.obj", quad_obj()},
+                          {"quad.mtl", to_bytes("newmtl skin\nmap_Kd large.png\nmap_Kd small.png\n")},
+                          {"large.png", Bytes(size, 0)},
+                          {"small.png", small}});
+  // The entry in the directory: the size is 24 bytes in, the name 46.
+  const std::size_t name = text_of(bytes).rfind("large.png");
+  std::memcpy(bytes.data() + name - 46 + 24, &declared, 4);
+  return bytes;
+}
+
+TEST(Zip, EntryOfAnHonestSize_ThatIsTooLarge_IsNotInflated) {
+  ImportLimits limits;
+  limits.max_file_bytes = 1 << 20;
+  const auto model = import_model(zip_with_a_large_image(2 << 20, 2 << 20), ModelFormat::gltf_zip, limits);
+  ASSERT_TRUE(model) << model.error().message;
+  EXPECT_EQ(model->images.size(), 1U) << "the small one";
+  ASSERT_EQ(model->warnings.size(), 1U);
+  EXPECT_NE(model->warnings[0].find("large.png"), std::string::npos) << model->warnings[0];
+}
+
+TEST(Zip, EntryThatIsLargerThanItSays_CountsAsInflated) {
+  // Otherwise a model could let a few kilobytes be inflated again and again, by each of its images.
+  ImportLimits limits;
+  limits.max_file_bytes = 1 << 20;
+  const auto model = import_model(zip_with_a_large_image(2 << 20, 100), ModelFormat::gltf_zip, limits);
+  ASSERT_TRUE(model) << model.error().message;
+  EXPECT_TRUE(model->images.empty());
+  ASSERT_EQ(model->warnings.size(), 2U);
+  EXPECT_NE(model->warnings[1].find("the zip's files inflate to more than 1048576 bytes together"), std::string::npos)
+      << model->warnings[1];
+}
+
 TEST(Zip, DamagedEntry_IsRefused_ByItsChecksum) {
   Bytes bytes = quad_zip();
   const std::string text = text_of(bytes);

@@ -57,6 +57,7 @@ export const portugueseDetails: Sentences = {
   'the zip cannot be read: {message}': 'o zip não pode ser lido: {message}',
   "the zip's entry {name} is damaged": 'o arquivo {name} do zip está danificado',
   "the zip's entry {name} inflates to more than {limit} bytes": 'o arquivo {name} do zip tem, descompactado, mais de {limit} bytes',
+  "the zip's files inflate to more than {limit} bytes together": 'os arquivos do zip têm, descompactados, juntos, mais de {limit} bytes',
   'refers to {name}, which is outside of the zip': 'cita {name}, que está fora do zip',
   'is not Draco data': 'não são dados Draco',
   'has Draco data that cannot be decoded': 'tem dados Draco que não podem ser decodificados',
