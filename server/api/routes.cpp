@@ -32,6 +32,12 @@ bool fits(std::string_view pattern, std::string_view path, std::map<std::string,
 Match match_route(std::string_view method, std::string_view path) {
   if (method == "HEAD") method = "GET";
   Match match;
+  if (path == "*") {
+    match.allow = "OPTIONS, GET, HEAD";
+    for (const auto& route : routes())
+      if (match.allow.find(route.method) == std::string::npos) match.allow.append(", ").append(route.method);
+    return match;
+  }
   std::map<std::string, std::string> params;
   for (const auto& route : routes()) {
     if (!fits(route.pattern, path, params)) continue;

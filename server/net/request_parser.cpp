@@ -68,6 +68,10 @@ void RequestParser::on_request_impl(boost::beast::http::verb, View method, View 
     authority_ = absolute->authority;
     request_.target = std::move(absolute->rest);
   }
+  if (request_.target == "*" && request_.method == "OPTIONS") {  // of the whole server (RFC 9112, 3.2.4)
+    request_.path = request_.target;
+    return;
+  }
   auto parsed = http::parse_target(request_.target);
   if (!parsed) {
     problem_ = http::make_problem("malformed-request",
@@ -162,7 +166,9 @@ std::optional<http::Problem> RequestParser::problem_of(const ErrorCode& error, s
   if (error == E::header_limit) return header_too_large();
   if (error == E::bad_version)
     return http::make_problem(
-        "http-version", "the version is neither HTTP/1.1 nor HTTP/1.0, or the target has a space that is not %20");
+        "http-version",
+        "the version is neither HTTP/1.1 nor HTTP/1.0, or the target has a space that is not %20, or the line does not "
+        "end with CR LF");
   if (error == E::buffer_overflow) {
     // If the line before a chunk is complete, the trailers are too long; that line may follow the line break of the
     // chunk before.

@@ -438,6 +438,10 @@ TEST_F(Routes, BadRoutesAndMethods_AreToldApart) {
   const auto preflight = request(port(), "OPTIONS", "/v1/models", {}, {{"Origin", own}});
   EXPECT_EQ(preflight.status, 204);
   EXPECT_EQ(preflight.headers.at("access-control-allow-origin"), own);
+  const auto whole_server = request(port(), "OPTIONS", "*");
+  EXPECT_EQ(whole_server.status, 204);
+  EXPECT_THAT(whole_server.headers.at("allow"), HasSubstr("DELETE"));
+  expect_problem(request(port(), "GET", "*"), 400, "malformed-request");
   expect_problem(request(port(), "POST", "/v1/streams", "{}", {{"Origin", "https://evil.example"}}), 403,
                  "forbidden-origin");
 }

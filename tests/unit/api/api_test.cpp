@@ -19,6 +19,9 @@ TEST(Routes, Path_FindsItsPatternAndNames) {
   const auto wrong_method = match_route("PATCH", "/v1/models");
   EXPECT_EQ(wrong_method.route, nullptr);
   EXPECT_EQ(wrong_method.allow, "OPTIONS, GET, HEAD, POST");
+  const auto whole_server = match_route("OPTIONS", "*");
+  EXPECT_EQ(whole_server.route, nullptr);
+  EXPECT_EQ(whole_server.allow, "OPTIONS, GET, HEAD, POST, PATCH, DELETE, PUT");
   for (const auto* path :
        {"/", "/v1", "/v1/models/", "/v1/models/a/b", "/v1/models//feature-points", "/healthz/x", ""}) {
     EXPECT_EQ(match_route("GET", path).route, nullptr) << path;

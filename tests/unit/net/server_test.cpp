@@ -248,6 +248,7 @@ TEST_F(ServerTest, TrailerThatGoesOnInAFurtherLine_IsRefused) {
 
 TEST_F(ServerTest, TargetThatCannotBeRead_IsAnsweredWithWhatCanBeWrong) {
   for (const auto& [target, words] : {std::pair{"/a b", "has a space that is not %20"},
+                                      {"/ HTTP/1.1\nX:", "does not end with CR LF"},
                                       {"/a?b=%zz", "a % without two hexadecimal digits"},
                                       {"/a%2Fb", "an encoded slash"},
                                       {"ftp://localhost/", "is not a path"}}) {
