@@ -127,9 +127,12 @@ class Session {
   asio::awaitable<Next> serve_one() {
     const auto& limits = state_->config.limits;
     // The wait for a request may be long; once it has begun, its header has a short deadline.
-    if (buffer_.size() == 0) {
-      transport_.expires_after(limits.idle_timeout);
-      if (co_await fill()) co_return Next::gone;
+    for (bool is_first = true; is_first || buffer_.size() == 0; is_first = false) {
+      if (buffer_.size() == 0) {
+        transport_.expires_after(limits.idle_timeout);
+        if (co_await fill()) co_return Next::gone;
+      }
+      if (is_first && co_await skip_empty_line()) co_return Next::gone;
     }
     RequestParser parser(limits.max_header_bytes, limits.max_header_fields);
     transport_.expires_after(limits.header_timeout);
@@ -179,6 +182,17 @@ class Session {
     co_return error;
   }
 
+  /// An empty line before a request is ignored (RFC 9112, 2.2): some clients send one behind a body.
+  asio::awaitable<error_code> skip_empty_line() {
+    const auto byte = [this](std::size_t i) { return static_cast<const char*>(buffer_.cdata().data())[i]; };
+    if (byte(0) != '\r') co_return error_code{};
+    transport_.expires_after(state_->config.limits.header_timeout);
+    while (buffer_.size() < 2)
+      if (const auto error = co_await fill()) co_return error;
+    if (byte(1) == '\n') buffer_.consume(2);
+    co_return error_code{};
+  }
+
   /// Parses up to the next piece of the message, or reads more. Beast's own read functions parse inside the I/O loop,
   /// where an exception would end the loop and not this coroutine.
   asio::awaitable<error_code> step(RequestParser& parser) {
@@ -198,8 +212,8 @@ class Session {
     if (!problem) co_return Next::gone;
     http::Request unknown;
     unknown.id = http::new_request_id();
-    unknown.method = "GET";
-    for (const char* const name : {"Host", "Origin"})  // they decide which pages may read the answer
+    unknown.method = parser.request().method == "HEAD" ? "HEAD" : "GET";  // which decides whether a body is sent
+    for (const char* const name : {"Host", "Origin"})                     // they decide which pages may read the answer
       if (const auto value = parser.request().header(name)) unknown.headers.emplace(name, *value);
     co_return co_await answer(unknown, http::to_response(*problem), 11, false);
   }
@@ -222,7 +236,8 @@ class Session {
         co_return Unread{http::make_problem("malformed-request", "only Expect: 100-continue is supported")};
       transport_.expires_after(state_->config.limits.write_timeout);
       constexpr std::string_view go_on = "HTTP/1.1 100 Continue\r\n\r\n";
-      if (co_await transport_.write(go_on)) co_return Unread{};
+      // A client of HTTP/1.0 would take it for the answer (RFC 9110, 10.1.1).
+      if (parser.version() == 11 && co_await transport_.write(go_on)) co_return Unread{};
     }
     BodySink sink(plan, *state_, request);
     parser.set_sink(sink);

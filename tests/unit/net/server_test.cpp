@@ -236,6 +236,35 @@ TEST_F(ServerTest, HeadersThatAProxyCouldReadOtherwise_AreRefused) {
   EXPECT_TRUE(old.read_head().starts_with("HTTP/1.0 200 ")) << "HTTP/1.0 needs no Host";
 }
 
+TEST_F(ServerTest, EmptyLineBeforeARequest_IsIgnored) {
+  const Client client(port_);
+  client.send("\r\n" + get("/immediate"));
+  EXPECT_TRUE(client.read_head().starts_with("HTTP/1.1 200 "));
+  const std::string post = "POST /immediate HTTP/1.1\r\nHost: localhost\r\nContent-Length: 2\r\n\r\nhi\r\n";
+  for (int i = 0; i < 3; ++i) {
+    client.send(post);  // with a line behind its body, which does not count
+    EXPECT_TRUE(client.read_head().starts_with("HTTP/1.1 200 "));
+    EXPECT_EQ(client.read(2), "hi");
+  }
+  client.send("\r\n" + get("/immediate"));
+  EXPECT_TRUE(client.read_head().starts_with("HTTP/1.1 400 ")) << "two are none";
+}
+
+TEST_F(ServerTest, ContinueIsNotSaidToHttp10) {
+  const Client client(port_);
+  client.send("POST /immediate HTTP/1.0\r\nContent-Length: 2\r\nExpect: 100-continue\r\n\r\nhi");
+  EXPECT_TRUE(client.read_head().starts_with("HTTP/1.0 200 "));
+}
+
+TEST_F(ServerTest, RefusedHead_HasNoBody) {
+  const Client client(port_);
+  client.send("HEAD /a%zz HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  const auto head = client.read_head();
+  EXPECT_TRUE(head.starts_with("HTTP/1.1 400 "));
+  EXPECT_EQ(head.find("Content-Length: 0"), std::string::npos);
+  EXPECT_EQ(client.read(1), "");
+}
+
 TEST_F(ServerTest, TrailerThatGoesOnInAFurtherLine_IsRefused) {
   const Client client(port_);
   client.send(
