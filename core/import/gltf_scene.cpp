@@ -72,6 +72,7 @@ std::vector<std::size_t> scene_nodes(GltfDocument& document, std::size_t node_co
   const std::size_t scene_count = document.count("scenes");
   if (scene_count == 0) return root_nodes(document, node_count);
   const JsonCursor scene = document.item("scenes", document.root().index("scene", scene_count).value_or(0));
+  scene.must_be_object();
   std::vector<std::size_t> nodes;
   for (std::size_t i = 0; i < scene.size_of("nodes"); ++i) {
     nodes.push_back(scene.member("nodes").element(i).integer(0, node_count - 1));
@@ -122,6 +123,7 @@ GltfScene read_scene(GltfDocument& document) {
     const auto [index, parent] = pending.back();
     pending.pop_back();
     const JsonCursor node = document.item("nodes", index);
+    node.must_be_object();
     if (world[index]) {
       node.fail(ErrorCode::malformed, "is in the scene twice, but nodes must form trees");
       break;
