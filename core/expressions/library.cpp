@@ -20,14 +20,16 @@ struct Library {
 template <std::size_t N>
 Library build(const std::array<generated::Set, N>& source) {
   Library library;
-  library.displacements.reserve(generated::displacements.size());
+  library.displacements.reserve(2 * generated::displacements.size());
   for (const generated::Set& set : source) {
     const std::size_t first = library.displacements.size();
     for (std::size_t i = set.first; i < set.first + set.count; ++i) {
       const generated::Entry& entry = generated::displacements[i];
-      library.displacements.push_back(
-          {FeaturePointId(entry.point),
-           {static_cast<float>(entry.x), static_cast<float>(entry.y), static_cast<float>(entry.z)}});
+      const glm::vec3 by(entry.x, entry.y, entry.z);
+      library.displacements.push_back({FeaturePointId(entry.point), by});
+      if (!entry.with_mirror) continue;
+      const glm::vec3 mirrored(-entry.x, entry.y, entry.z);  // of the whole number: 0 has no sign
+      library.displacements.push_back({FeaturePointId(static_cast<std::uint8_t>(entry.point + 1)), mirrored});
     }
     // Reserved above, so the array does not move and the spans stay valid.
     library.sets.push_back({set.name, std::span<const Displacement>(library.displacements).subspan(first),

@@ -123,14 +123,21 @@ std::string render_header(const Sets& sets) {
   const auto table = [&](const char* name, const std::vector<AuthoredSet>& list) {
     tables << "inline constexpr std::array<Set, " << list.size() << "> " << name << " = {{\n";
     for (const AuthoredSet& set : list) {
-      tables << "    {\"" << set.name << "\", " << count << ", " << set.displacements.size()
-             << (set.meets_upper_teeth ? ", true, " : ", false, ") << set.jaw_open << "},\n";
+      const std::size_t first = count;
       entries << "    // " << set.name << "\n";
-      for (const auto& [point, d] : set.displacements) {
-        entries << "    {" << static_cast<int>(point.value()) << ", " << d[0] << ", " << d[1] << ", " << d[2]
-                << "},  // " << to_string(point) << "\n";
+      const Displacements& moved = set.displacements;
+      for (auto at = moved.begin(); at != moved.end(); ++at, ++count) {
+        const auto& [point, d] = *at;
+        const auto next = std::next(at);
+        const bool with_mirror = next != moved.end() && next->first == mirror_of(point) &&
+                                 next->first.value() == point.value() + 1 && next->second == Vec3{-d[0], d[1], d[2]};
+        entries << "    {" << static_cast<int>(point.value()) << (with_mirror ? ", true, " : ", false, ") << d[0]
+                << ", " << d[1] << ", " << d[2] << "},  // " << to_string(point);
+        if (with_mirror) entries << ", " << to_string((++at)->first);
+        entries << "\n";
       }
-      count += set.displacements.size();
+      tables << "    {\"" << set.name << "\", " << first << ", " << count - first
+             << (set.meets_upper_teeth ? ", true, " : ", false, ") << set.jaw_open << "},\n";
     }
     tables << "}};\n\n";
   };
@@ -142,7 +149,9 @@ std::string render_header(const Sets& sets) {
   out << "// Generated from core/expressions/data by semblante-codegen-expressions; change the data, not this.\n"
       << "// clang-format off\n#pragma once\n\n#include <array>\n#include <cstddef>\n#include <cstdint>\n"
       << "#include <string_view>\n\nnamespace semblante::generated {\n\n"
-      << "struct Entry {\n  std::uint8_t point;  ///< dense index\n  std::int16_t x, y, z;  ///< FAPU units\n};\n\n"
+      << "struct Entry {\n  std::uint8_t point;  ///< dense index\n  bool with_mirror;  ///< the next point moves "
+         "likewise, "
+         "to the other side\n  std::int16_t x, y, z;  ///< FAPU units\n};\n\n"
       << "/// displacements[first] .. displacements[first + count - 1]\n"
       << "struct Set {\n  std::string_view name;\n  std::size_t first, count;\n  bool meets_upper_teeth;\n  double "
          "jaw_open;  ///< amount of the action\n};\n\n"
