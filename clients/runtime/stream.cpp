@@ -7,6 +7,7 @@
 
 #include "clients/runtime/border.h"
 #include "clients/runtime/player.h"
+#include "core/types/decimal.h"
 #include "protocol/cpp/kernel_values.h"
 
 namespace semblante::runtime {
@@ -161,7 +162,7 @@ void Stream::send_ping(double now) {
 void Stream::receive(std::span<const std::uint8_t> bytes, double now) {
   if (link_ != Link::open || ended_) return;
   if (bytes.size() > options_.max_message_bytes) {
-    return fail({ErrorCode::too_large, "", "a message of " + std::to_string(bytes.size()) + " bytes"}, now);
+    return fail({ErrorCode::too_large, "", "a message of " + natural_text(bytes.size()) + " bytes"}, now);
   }
   if (!bytes.empty() && is_frames(bytes[0])) {
     Status status = decoder_.decode_frames(bytes, newest_);
@@ -212,7 +213,7 @@ void Stream::take(const Message& message, double now) {
 void Stream::take_header(const Header& header, double now) {
   unanswered_since_ = never;
   if (header.version > protocol_version) {
-    fail({ErrorCode::unsupported, "/version", "version " + std::to_string(header.version) + " of the protocol"}, now);
+    fail({ErrorCode::unsupported, "/version", "version " + natural_text(header.version) + " of the protocol"}, now);
     return stop();  // the next connection would begin in the same way
   }
   if (header_ && header_->epoch != header.epoch) clock_.clear();

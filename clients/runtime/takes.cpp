@@ -7,6 +7,7 @@
 #include "clients/runtime/border.h"
 #include "clients/runtime/times.h"
 #include "core/bridges/live_link_csv.h"
+#include "core/types/decimal.h"
 #include "protocol/cpp/fap_file_frames.h"
 #include "protocol/cpp/kernel_values.h"
 
@@ -176,7 +177,7 @@ semblante_result semblante_take_write(uint32_t format, const semblante_timed_fra
     const size_t capacity = text == nullptr ? 0 : *size;
     *size = written->size();
     if (written->size() > capacity) {
-      return fail(error, SEMBLANTE_BUFFER_TOO_SMALL, "size", "the file needs " + std::to_string(*size) + " bytes");
+      return fail(error, SEMBLANTE_BUFFER_TOO_SMALL, "size", "the file needs " + natural_text(*size) + " bytes");
     }
     std::copy(written->begin(), written->end(), text);
     return SEMBLANTE_OK;

@@ -15,7 +15,7 @@ namespace {
 constexpr double seconds_of_a_day = 86400.0;
 
 Error at_line(std::size_t line, ErrorCode code, std::string message) {
-  return {code, "line " + std::to_string(line), std::move(message)};
+  return {code, "line " + natural_text(line), std::move(message)};
 }
 
 /// Makes untrusted text safe for a message: shortened, without control characters.
@@ -134,7 +134,7 @@ Result<Columns> read_header(std::string_view line, std::vector<std::string>& war
   Columns columns;
   const auto names = cells_of(line);
   if (names.size() > max_live_link_columns) {
-    return at_line(1, ErrorCode::too_large, "more than " + std::to_string(max_live_link_columns) + " columns");
+    return at_line(1, ErrorCode::too_large, "more than " + natural_text(max_live_link_columns) + " columns");
   }
   columns.count = names.size();
   columns.field.resize(names.size());
@@ -176,7 +176,7 @@ Result<LiveLinkRow> read_row(std::string_view line, std::size_t number, const Co
   if (!seconds) {
     return at_line(number, ErrorCode::malformed,
                    shown(cells[columns.timecode]) + " is not a timecode HH:MM:SS:FF.sub with FF below " +
-                       std::to_string(std::lround(rate)));
+                       whole_text(std::lround(rate)));
   }
   if (columns.shape_count && *columns.shape_count < cells.size() && cells[*columns.shape_count] == "0") {
     LiveLinkRow same = before;
@@ -186,7 +186,7 @@ Result<LiveLinkRow> read_row(std::string_view line, std::size_t number, const Co
   if (cells.size() != columns.count) {
     return at_line(
         number, cells.size() < columns.count ? ErrorCode::truncated : ErrorCode::malformed,
-        "the row has " + std::to_string(cells.size()) + " values for " + std::to_string(columns.count) + " columns");
+        "the row has " + natural_text(cells.size()) + " values for " + natural_text(columns.count) + " columns");
   }
   LiveLinkRow row;
   row.seconds = *seconds;
@@ -195,10 +195,10 @@ Result<LiveLinkRow> read_row(std::string_view line, std::size_t number, const Co
     const auto value = read_real(cells[c]);
     if (!value) {
       return at_line(number, ErrorCode::malformed,
-                     "column " + std::to_string(c + 1) + ": " + shown(cells[c]) + " is not a number");
+                     "column " + natural_text(c + 1) + ": " + shown(cells[c]) + " is not a number");
     }
     if (!std::isfinite(*value) || std::abs(*value) > 1e6F) {
-      return at_line(number, ErrorCode::not_finite, "column " + std::to_string(c + 1) + " is not a finite number");
+      return at_line(number, ErrorCode::not_finite, "column " + natural_text(c + 1) + " is not a finite number");
     }
     set_field(row, *columns.field[c], *value);
   }
@@ -209,7 +209,7 @@ Result<LiveLinkRow> read_row(std::string_view line, std::size_t number, const Co
 
 Result<LiveLinkTake> read_live_link_csv(std::string_view text, double timecode_rate) {
   if (text.size() > max_live_link_bytes) {
-    return Error{ErrorCode::too_large, "", "the file has more than " + std::to_string(max_live_link_bytes) + " bytes"};
+    return Error{ErrorCode::too_large, "", "the file has more than " + natural_text(max_live_link_bytes) + " bytes"};
   }
   if (!(timecode_rate >= 1.0 && timecode_rate <= 1000.0)) {
     return Error{ErrorCode::invalid_argument, "", "the timecode rate must be 1 to 1000 frames per second"};
@@ -226,7 +226,7 @@ Result<LiveLinkTake> read_live_link_csv(std::string_view text, double timecode_r
     const std::string_view line = next_line(text);
     if (line.empty()) continue;
     if (take.rows.size() == max_live_link_rows) {
-      return at_line(number, ErrorCode::too_large, "more than " + std::to_string(max_live_link_rows) + " rows");
+      return at_line(number, ErrorCode::too_large, "more than " + natural_text(max_live_link_rows) + " rows");
     }
     auto row = read_row(line, number, *columns, timecode_rate, take.rows.empty() ? LiveLinkRow{} : take.rows.back());
     if (!row) return row.error();

@@ -27,7 +27,7 @@ std::string in_capitals(std::string_view name) {
 }
 
 void append_padded(std::string& to, long long value, std::size_t width) {
-  const std::string text = std::to_string(value);
+  const std::string text = whole_text(value);
   to.append(text.size() < width ? width - text.size() : 0, '0').append(text);
 }
 
@@ -60,7 +60,7 @@ void append_live_link_header(std::string& to) {
 void append_live_link_row(std::string& to, const LiveLinkRow& row, double timecode_rate) {
   static const std::array<std::size_t, arkit_count> order = columns_of_file();
   append_timecode(to, row.seconds, timecode_rate);
-  to.append(",").append(std::to_string(arkit_count + generated::arkit_rotations.size()));
+  to.append(",").append(natural_text(arkit_count + generated::arkit_rotations.size()));
   for (const std::size_t s : order) append_value(to, row.coefficients[s]);
   for (const float angle : {row.head.yaw, row.head.pitch, row.head.roll, row.left_eye.yaw, row.left_eye.pitch, 0.0F,
                             row.right_eye.yaw, row.right_eye.pitch, 0.0F}) {

@@ -27,8 +27,8 @@ const char* with_article(JsonKind kind) {
 }
 
 std::string text_of(const JsonView& number) {
-  if (number.kind() == JsonKind::natural) return std::to_string(number.natural());
-  if (number.kind() == JsonKind::negative) return std::to_string(number.negative());
+  if (number.kind() == JsonKind::natural) return natural_text(number.natural());
+  if (number.kind() == JsonKind::negative) return whole_text(number.negative());
   return shortest_text(number.number());
 }
 
@@ -41,6 +41,8 @@ std::string not_between(const std::string& least, const std::string& most) {
 void JsonCursor::fail(ErrorCode code, std::string message) const {
   if (!failed()) *report_ = Error{code, pointer_, std::move(message)};
 }
+
+void JsonCursor::fail(ErrorCode code, const char* message) const { fail(code, std::string(message)); }
 
 bool JsonCursor::is_null() const { return node_.kind() == JsonKind::null; }
 bool JsonCursor::is_text() const { return node_.kind() == JsonKind::text; }
@@ -102,10 +104,9 @@ std::vector<JsonCursor> JsonCursor::elements(std::size_t least, std::size_t most
   const std::size_t count = size();
   if (!is_array()) return elements;
   if (count < least || count > most) {
-    const std::string bounds =
-        least == most ? std::to_string(least) : std::to_string(least) + " to " + std::to_string(most);
+    const std::string bounds = least == most ? natural_text(least) : natural_text(least) + " to " + natural_text(most);
     fail(count > most ? ErrorCode::too_large : ErrorCode::out_of_range,
-         "must have " + bounds + " elements, not " + std::to_string(count));
+         "must have " + bounds + " elements, not " + natural_text(count));
     return elements;
   }
   elements.reserve(count);
@@ -141,7 +142,7 @@ std::uint64_t JsonCursor::integer(std::uint64_t least, std::uint64_t most) const
     if (fits) value = static_cast<std::uint64_t>(real);
   }
   if (fits && value >= least && value <= most) return value;
-  fail(ErrorCode::out_of_range, not_between(std::to_string(least), std::to_string(most)) + ", not " + text_of(node_));
+  fail(ErrorCode::out_of_range, not_between(natural_text(least), natural_text(most)) + ", not " + text_of(node_));
   return least;
 }
 
@@ -153,7 +154,7 @@ std::string JsonCursor::text(std::size_t most_bytes) const {
   if (!must_be(is_text(), "a string")) return {};
   const std::string_view value = node_.text();
   if (value.size() <= most_bytes) return std::string(value);
-  fail(ErrorCode::too_large, "must not exceed " + std::to_string(most_bytes) + " bytes");
+  fail(ErrorCode::too_large, "must not exceed " + natural_text(most_bytes) + " bytes");
   return {};
 }
 

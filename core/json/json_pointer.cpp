@@ -1,5 +1,6 @@
 #include "core/json/json_pointer.h"
 
+#include "core/types/decimal.h"
 #include "core/types/printable.h"
 
 namespace semblante {
@@ -35,6 +36,6 @@ std::string pointer_segment(std::string_view name) {
 
 void append_to_pointer(std::string& pointer, std::string_view name) { append_segment(pointer, pointer_segment(name)); }
 
-void append_to_pointer(std::string& pointer, std::size_t index) { append_segment(pointer, std::to_string(index)); }
+void append_to_pointer(std::string& pointer, std::size_t index) { append_segment(pointer, natural_text(index)); }
 
 }  // namespace semblante

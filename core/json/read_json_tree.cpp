@@ -22,7 +22,7 @@ class JsonReader {
     // Offsets in the tree have 32 bits.
     const std::size_t most = std::min<std::size_t>(limits_.max_bytes, ~std::uint32_t{0});
     if (text_.size() > most) {
-      return Error{ErrorCode::too_large, "", "has more than " + std::to_string(most) + " bytes"};
+      return Error{ErrorCode::too_large, "", "has more than " + natural_text(most) + " bytes"};
     }
     if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;
     while (!fault_ && step()) {
@@ -67,7 +67,7 @@ class JsonReader {
     if (fault_) return false;
     const std::string place = pointer();
     fault_ = Error{ErrorCode::malformed, "",
-                   "is not valid JSON (byte " + std::to_string(at_ + 1) + (place.empty() ? "" : ", in " + place) + ")"};
+                   "is not valid JSON (byte " + natural_text(at_ + 1) + (place.empty() ? "" : ", in " + place) + ")"};
     return false;
   }
 
@@ -281,10 +281,10 @@ class JsonReader {
     const bool known = opens || c == '"' || c == '-' || (c >= '0' && c <= '9') || c == 't' || c == 'f' || c == 'n';
     if (!known) return not_json();
     if (opens && open_.size() == limits_.max_depth) {
-      return fail(ErrorCode::too_large, "is nested deeper than " + std::to_string(limits_.max_depth));
+      return fail(ErrorCode::too_large, "is nested deeper than " + natural_text(limits_.max_depth));
     }
     if (++values_ > limits_.max_values) {
-      return fail(ErrorCode::too_large, "has more than " + std::to_string(limits_.max_values) + " values");
+      return fail(ErrorCode::too_large, "has more than " + natural_text(limits_.max_values) + " values");
     }
     if (opens) return open(node, c == '{');
     bool read = true;

@@ -30,7 +30,7 @@ std::string text_of(double value) {
 /// Keeps the first error of a script, with its pointer.
 class Checker {
  public:
-  void at(std::size_t cue) { cue_ = "/cues/" + std::to_string(cue); }
+  void at(std::size_t cue) { cue_ = "/cues/" + natural_text(cue); }
   void fail(ErrorCode code, std::string_view member, std::string message) {
     if (!fault_) fault_ = Error{code, cue_ + std::string(member), std::move(message)};
   }
@@ -102,7 +102,7 @@ void check_values(const Cue& cue, Checker& check) {
   }
   double before = -1.0;
   for (std::size_t k = 0; k < cue.keys.size() && !check.fault(); ++k) {
-    const std::string key = "/keys/" + std::to_string(k);
+    const std::string key = "/keys/" + natural_text(k);
     check.within(cue.keys[k].time, 0.0, max_performance_ms, key + "/0");
     check.within(cue.keys[k].value, range.least, range.most, key + "/1");
     if (cue.keys[k].time <= before) check.fail(ErrorCode::out_of_range, key + "/0", "times of keys must increase");
@@ -161,10 +161,10 @@ struct Performance::Compiler {
       check.fail(ErrorCode::out_of_range, "/duration", "ends after " + text_of(max_performance_ms) + " ms");
     if (check.fault()) return;
     if (!cue.keys.empty() && cue.keys.back().time > duration)
-      check.fail(ErrorCode::out_of_range, "/keys/" + std::to_string(cue.keys.size() - 1) + "/0",
+      check.fail(ErrorCode::out_of_range, "/keys/" + natural_text(cue.keys.size() - 1) + "/0",
                  "comes after the end of its cue");
     if (made.keys_.size() + cue.keys.size() > max_performance_keys)
-      check.fail(ErrorCode::too_large, "/keys", "more than " + std::to_string(max_performance_keys) + " keys in all");
+      check.fail(ErrorCode::too_large, "/keys", "more than " + natural_text(max_performance_keys) + " keys in all");
     const Ramps ramps = fitted_ramps(cue, duration, check);
     if (check.fault()) return;
 
@@ -239,7 +239,7 @@ struct Performance::Compiler {
     if (!track.too_many()) return;
     check.at(*track.too_many());
     check.fail(ErrorCode::too_large, "",
-               "more than " + std::to_string(max_overlapping_cues) + " cues act on one target at once");
+               "more than " + natural_text(max_overlapping_cues) + " cues act on one target at once");
   }
 
   void finish() {
@@ -261,7 +261,7 @@ Result<Performance> Performance::compile(const PerformanceScript& script) {
   Checker& check = compiler.check;
   if (script.cues.size() > max_performance_cues)
     return Error{ErrorCode::too_large, "/cues",
-                 "a performance has at most " + std::to_string(max_performance_cues) + " cues"};
+                 "a performance has at most " + natural_text(max_performance_cues) + " cues"};
   if (script.cues.empty() && !script.idle && !script.duration)
     return Error{ErrorCode::empty, "", "there is nothing in it to play: no cues and no idle life"};
   double before = 0.0;

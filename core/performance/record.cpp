@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/tables/mpeg4.h"
+#include "core/types/decimal.h"
 
 namespace semblante {
 namespace {
@@ -57,13 +58,11 @@ class CueBuilder {
                [&](const semblante_frame& f) { return static_cast<double>(f.fap[n]); });
     }
     if (cues_.size() > max_performance_cues)
-      return Error{
-          ErrorCode::too_large, "",
-          "it takes more than " + std::to_string(max_performance_cues) + " cues: record less, or more coarsely"};
+      return Error{ErrorCode::too_large, "",
+                   "it takes more than " + natural_text(max_performance_cues) + " cues: record less, or more coarsely"};
     if (keys_ > max_performance_keys)
-      return Error{
-          ErrorCode::too_large, "",
-          "it takes more than " + std::to_string(max_performance_keys) + " keys: record less, or more coarsely"};
+      return Error{ErrorCode::too_large, "",
+                   "it takes more than " + natural_text(max_performance_keys) + " keys: record less, or more coarsely"};
     std::stable_sort(cues_.begin(), cues_.end(), [](const Cue& a, const Cue& b) { return a.time < b.time; });
     PerformanceScript script;
     script.duration = end_;
@@ -144,7 +143,7 @@ Result<PerformanceScript> record_performance(std::span<const RecordedFrame> fram
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const RecordedFrame& frame = frames[i];
     const auto refuse = [&](std::string message) {
-      return Error{ErrorCode::out_of_range, "/frames/" + std::to_string(i), std::move(message)};
+      return Error{ErrorCode::out_of_range, "/frames/" + natural_text(i), std::move(message)};
     };
     if (!std::isfinite(frame.time) || (i > 0 && frame.time < frames[i - 1].time))
       return refuse("times must not decrease");

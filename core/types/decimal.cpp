@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 
 namespace semblante {
 namespace {
@@ -289,11 +290,13 @@ struct Shortest {
 Shortest shortest_of(double value) {
   if (value == 0.0) return {"0", 0};
   const auto is_value = [&](const Shortest& text) {
-    return rounded(*split(text.digits + "e" + std::to_string(text.power)), 53, -1074) == value;
+    return rounded(*split(text.digits + "e" + whole_text(text.power)), 53, -1074) == value;
   };
   int exponent = 0;
   const bool is_power_of_two = std::frexp(value, &exponent) == 0.5;
-  const int magnitude = static_cast<int>(std::floor(std::log10(value)));
+  // Of the power of two below, that of ten is the same or one less than that of the value.
+  int magnitude = static_cast<int>(std::floor((exponent - 1) * std::numbers::ln2 / std::numbers::ln10));
+  if (rounded(*split("1e" + whole_text(magnitude + 1)), 53, -1074) <= value) ++magnitude;
   for (int count = 1;; ++count) {
     Shortest result{scaled_digits(value, count - 1 - magnitude), magnitude - count + 1};
     if (count < 17 && !is_value(result)) {
@@ -335,6 +338,22 @@ std::optional<float> read_float(std::string_view text) {
   return number->negative ? -narrow : narrow;
 }
 
+std::string natural_text(std::uint64_t value) {
+  std::array<char, 20> digits{};
+  std::size_t first = digits.size();
+  do {
+    digits[--first] = static_cast<char>('0' + value % 10);
+    value /= 10;
+  } while (value != 0);
+  return {digits.data() + first, digits.size() - first};
+}
+
+std::string whole_text(std::int64_t value) {
+  // Negated as it is without a sign, where the least value has a negative.
+  return value < 0 ? "-" + natural_text(0 - static_cast<std::uint64_t>(value))
+                   : natural_text(static_cast<std::uint64_t>(value));
+}
+
 std::string fixed_text(double value, int digits) {
   return signed_text(value, placed(scaled_digits(std::abs(value), digits), -digits));
 }
@@ -352,7 +371,7 @@ std::string shortest_text(double value) {
     return signed_text(value, power >= 0 ? text + ".0" : text);
   }
   if (digits.size() > 1) digits.insert(1, 1, '.');
-  std::string exponent = std::to_string(std::abs(magnitude));
+  std::string exponent = whole_text(std::abs(magnitude));
   if (exponent.size() < 2) exponent.insert(0, 1, '0');
   return signed_text(value, digits + (magnitude < 0 ? "e-" : "e+") + exponent);
 }

@@ -1,6 +1,6 @@
 #include "core/types/feature_point_id.h"
 
-#include <charconv>
+#include "core/types/decimal.h"
 
 namespace semblante {
 namespace {
@@ -27,27 +27,29 @@ constexpr GroupAndNumber split(std::uint8_t index) {
 }  // namespace
 
 std::optional<FeaturePointId> parse_feature_point(std::string_view text) {
-  const char* const end = text.data() + text.size();
   int group = 0;
   int number = 0;
-  const auto dot = std::from_chars(text.data(), end, group);
-  if (dot.ec != std::errc{} || dot.ptr == end || *dot.ptr != '.') return std::nullopt;
-  const auto last = std::from_chars(dot.ptr + 1, end, number);
-  if (last.ec != std::errc{} || last.ptr != end) return std::nullopt;
+  int* part = &group;
+  for (const char c : text) {
+    if (c == '.' && part == &group) {
+      part = &number;
+      continue;
+    }
+    // Only the canonical spelling: "2.01" would be a second key for the same point.
+    if (c < '0' || c > '9' || (c == '0' && *part == 0) || *part >= 10) return std::nullopt;
+    *part = *part * 10 + (c - '0');
+  }
   const int slot = group - first_group;
   if (slot < 0 || slot >= static_cast<int>(group_sizes.size())) return std::nullopt;
   if (number < 1 || number > group_sizes[static_cast<std::size_t>(slot)]) return std::nullopt;
   int index = number - 1;
   for (int g = 0; g < slot; ++g) index += group_sizes[static_cast<std::size_t>(g)];
-  const FeaturePointId id(static_cast<std::uint8_t>(index));
-  // Only the canonical spelling: "2.01" would be a second key for the same point. from_chars reads no "+".
-  if (text.front() == '0' || dot.ptr[1] == '0') return std::nullopt;
-  return id;
+  return FeaturePointId(static_cast<std::uint8_t>(index));
 }
 
 std::string to_string(FeaturePointId id) {
   const auto [group, number] = split(id.value());
-  return std::to_string(group) + "." + std::to_string(number);
+  return whole_text(group) + "." + whole_text(number);
 }
 
 int group_of(FeaturePointId id) { return split(id.value()).group; }

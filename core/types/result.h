@@ -1,9 +1,10 @@
 #pragma once
 
 #include <cassert>
+#include <memory>
+#include <optional>
 #include <string>
 #include <utility>
-#include <variant>
 
 namespace semblante {
 
@@ -26,38 +27,52 @@ enum class ErrorCode {
 
 /// `code` for programs; `where` (JSON pointer, field, byte offset or line; may be empty) and `message` for display.
 struct Error {
+  Error() = default;
+  Error(ErrorCode kind, std::string place, std::string words)
+      : code(kind), where(std::move(place)), message(std::move(words)) {}
+  /// Of fixed texts, which many errors have: small code where they are made.
+  Error(ErrorCode kind, const char* place, const char* words);
+
   ErrorCode code = ErrorCode::internal;
   std::string where;
   std::string message;
 };
 
-/// A value or an error. For untrusted input; mistakes of the caller are asserts.
+/// A value or an error. For untrusted input; mistakes of the caller are asserts. An error is on the heap: few results
+/// have one, and every result is moved and destroyed.
 template <class T>
 class [[nodiscard]] Result {
  public:
-  Result(T value) : state_(std::in_place_index<0>, std::move(value)) {}      // NOLINT(google-explicit-constructor)
-  Result(Error error) : state_(std::in_place_index<1>, std::move(error)) {}  // NOLINT(google-explicit-constructor)
+  Result(T value) : value_(std::move(value)) {}                               // NOLINT(google-explicit-constructor)
+  Result(Error error) : error_(std::make_unique<Error>(std::move(error))) {}  // NOLINT(google-explicit-constructor)
+  Result(const Result& other)
+      : value_(other.value_), error_(other.error_ ? std::make_unique<Error>(*other.error_) : nullptr) {}
+  Result(Result&&) = default;
+  Result& operator=(Result other) {
+    value_ = std::move(other.value_);
+    error_ = std::move(other.error_);
+    return *this;
+  }
+  ~Result() = default;
 
-  [[nodiscard]] bool ok() const { return state_.index() == 0; }
+  [[nodiscard]] bool ok() const { return value_.has_value(); }
   explicit operator bool() const { return ok(); }
 
-  T& value() & { return assert(ok()), *std::get_if<0>(&state_); }
-  const T& value() const& { return assert(ok()), *std::get_if<0>(&state_); }
-  T&& value() && { return assert(ok()), std::move(*std::get_if<0>(&state_)); }
+  T& value() & { return assert(ok()), *value_; }
+  const T& value() const& { return assert(ok()), *value_; }
+  T&& value() && { return assert(ok()), std::move(*value_); }
   T& operator*() & { return value(); }
   const T& operator*() const& { return value(); }
   T&& operator*() && { return std::move(*this).value(); }
   T* operator->() { return &value(); }
   const T* operator->() const { return &value(); }
 
-  const Error& error() const& { return assert(failed()), *std::get_if<1>(&state_); }
-  Error&& error() && { return assert(failed()), std::move(*std::get_if<1>(&state_)); }
+  const Error& error() const& { return assert(error_ != nullptr), *error_; }
+  Error&& error() && { return assert(error_ != nullptr), std::move(*error_); }
 
  private:
-  /// Not `!ok()`: a variant may also be without any value, after a move that threw.
-  [[nodiscard]] bool failed() const { return state_.index() == 1; }
-
-  std::variant<T, Error> state_;
+  std::optional<T> value_;
+  std::unique_ptr<Error> error_;
 };
 
 /// Success without a value.

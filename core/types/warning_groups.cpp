@@ -4,6 +4,8 @@
 #include <string_view>
 #include <utility>
 
+#include "core/types/decimal.h"
+
 namespace semblante {
 namespace {
 
@@ -73,12 +75,12 @@ std::vector<std::string> WarningGroups::sentences() const {
       if (group.count == 2) sentences.push_back(group.second);
       continue;
     }
-    std::string sentence = std::to_string(group.count) + " times: " + group.first;
+    std::string sentence = natural_text(group.count) + " times: " + group.first;
     for (std::size_t i = 0; i < group.names.size(); ++i) sentence += (i == 0 ? "; likewise " : ", ") + group.names[i];
     if (!group.names.empty() && group.count > group.names.size() + 1) sentence += ", ...";
     sentences.push_back(std::move(sentence));
   }
-  if (beyond_ > 0) sentences.push_back("and " + std::to_string(beyond_) + " more warnings");
+  if (beyond_ > 0) sentences.push_back("and " + natural_text(beyond_) + " more warnings");
   return sentences;
 }
 

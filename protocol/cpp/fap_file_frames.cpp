@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "core/types/decimal.h"
 #include "protocol/cpp/fap_number.h"
 
 namespace semblante {
@@ -123,7 +124,7 @@ Result<FapFile> fap_file_of(std::span<const TimedValues> frames, const FapFileSt
     return std::round((frame.time - frames.front().time) * file.rate / ms_per_s);
   };
   if (number_of(frames.back()) >= static_cast<double>(limits.frames)) {
-    return Error{ErrorCode::too_large, "", "a .fap file has at most " + std::to_string(limits.frames) + " frames"};
+    return Error{ErrorCode::too_large, "", "a .fap file has at most " + natural_text(limits.frames) + " frames"};
   }
   const auto mask = used(frames, style.whole_values);
   const auto add = [&](const FaceValues& state, std::size_t number) {

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/types/decimal.h"
 #include "protocol/cpp/face_frame.h"
 #include "protocol/cpp/fap_file.h"
 #include "protocol/cpp/fap_number.h"
@@ -29,7 +30,7 @@ struct Line {
   std::vector<std::string_view> words;
 };
 
-std::string line_of(std::uint32_t line) { return "line " + std::to_string(line); }
+std::string line_of(std::uint32_t line) { return "line " + natural_text(line); }
 
 /// A word of the file in a message: short and printable.
 std::string quoted(std::string_view word) {
@@ -53,7 +54,7 @@ class Lines {
       const std::size_t end = rest_.find_first_of("\r\n");
       const std::string_view text = rest_.substr(0, end);
       if (text.size() > max_line_) {
-        fault_ = Error{ErrorCode::too_large, line_of(number_), "has more than " + std::to_string(max_line_) + " bytes"};
+        fault_ = Error{ErrorCode::too_large, line_of(number_), "has more than " + natural_text(max_line_) + " bytes"};
         return std::nullopt;
       }
       if (end == std::string_view::npos) {
@@ -121,7 +122,7 @@ class Reader {
     if (!fault_) fault_ = Error{code, line_of(line), std::move(message)};
   }
   void fail(ErrorCode code, const Line& line, std::size_t word, std::string message) {
-    if (!fault_) fault_ = Error{code, line_of(line.number) + ", word " + std::to_string(word + 1), std::move(message)};
+    if (!fault_) fault_ = Error{code, line_of(line.number) + ", word " + natural_text(word + 1), std::move(message)};
   }
   /// Parses a word as a number; anything else is malformed. NaN and infinities are accepted.
   double number_at(const Line& line, std::size_t word) {
@@ -173,8 +174,7 @@ class Reader {
 
   void read_frame(const Line& mask) {
     if (reading_.file.frames.size() >= limits_.frames) {
-      return fail(ErrorCode::too_large, mask.number,
-                  "a file has at most " + std::to_string(limits_.frames) + " frames");
+      return fail(ErrorCode::too_large, mask.number, "a file has at most " + natural_text(limits_.frames) + " frames");
     }
     auto frame = read_mask(mask);
     if (fault_) return;
@@ -199,7 +199,7 @@ class Reader {
     }
     if (words.size() < last_low_level_fap) {
       fail(ErrorCode::malformed, line.number,
-           "a mask has 68 flags (69 are taken), this has " + std::to_string(words.size()));
+           "a mask has 68 flags (69 are taken), this has " + natural_text(words.size()));
     }
     if (words.size() > last_low_level_fap) note(FapFileOddity::extra_flag, line.number);
     return frame;
@@ -210,7 +210,7 @@ class Reader {
     if (!(number >= 0 && number <= 2.0 * max_fap_file_number) || number != std::floor(number)) {
       return fail(ErrorCode::out_of_range, line, 0,
                   quoted(line.words[0]) + " is no frame number: those are whole, from 0 to " +
-                      std::to_string(2 * max_fap_file_number));
+                      natural_text(2 * max_fap_file_number));
     }
     frame.number = static_cast<std::uint32_t>(number);
 
@@ -360,7 +360,7 @@ class Reader {
     if (first != 0) note(FapFileOddity::first_number_not_zero, lines_of_frames_.front());
     if (frames.back().number - first > max_fap_file_number) {
       fail(ErrorCode::out_of_range, lines_of_frames_.back(),
-           "the frame numbers span more than " + std::to_string(max_fap_file_number));
+           "the frame numbers span more than " + natural_text(max_fap_file_number));
     }
     for (auto& frame : frames) frame.number -= first;
     for (std::size_t i = 1; i < frames.size(); ++i) {
@@ -380,7 +380,7 @@ class Reader {
 
 Result<FapFileReading> read_fap_file(std::string_view text, const FapFileLimits& limits) {
   if (text.size() > limits.bytes) {
-    return Error{ErrorCode::too_large, "", "a .fap file has at most " + std::to_string(limits.bytes) + " bytes"};
+    return Error{ErrorCode::too_large, "", "a .fap file has at most " + natural_text(limits.bytes) + " bytes"};
   }
   return Reader(text, limits).read();
 }

@@ -1,6 +1,7 @@
 #include <array>
 #include <utility>
 
+#include "core/types/decimal.h"
 #include "protocol/cpp/fap_file.h"
 
 namespace semblante {
@@ -36,9 +37,9 @@ static_assert(words_of.size() == static_cast<std::size_t>(FapFileOddity::strengt
 std::string_view to_string(FapFileOddity oddity) { return words_of[static_cast<std::size_t>(oddity)].name; }
 
 std::string to_sentence(const FapFileWarning& warning) {
-  std::string text = "line " + std::to_string(warning.line) + ": ";
+  std::string text = "line " + natural_text(warning.line) + ": ";
   text += words_of[static_cast<std::size_t>(warning.oddity)].sentence;
-  if (warning.count > 1) text += " (" + std::to_string(warning.count) + " times)";
+  if (warning.count > 1) text += " (" + natural_text(warning.count) + " times)";
   return text;
 }
 

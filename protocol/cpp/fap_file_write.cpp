@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "core/types/decimal.h"
 #include "protocol/cpp/face_frame.h"
 #include "protocol/cpp/fap_file.h"
 #include "protocol/cpp/fap_number.h"
@@ -8,13 +9,13 @@
 namespace semblante {
 namespace {
 
-void append(std::string& text, int value) { text.append(" ").append(std::to_string(value)); }
+void append(std::string& text, int value) { text.append(" ").append(whole_text(value)); }
 
 void append_frame(std::string& text, const FapFileFrame& frame) {
   for (std::size_t fap = 1; fap <= last_low_level_fap; ++fap) {
     text.append(fap > 1 ? " " : "").append(frame.present[fap] ? "1" : "0");
   }
-  text.append("\n").append(std::to_string(frame.number));
+  text.append("\n").append(natural_text(frame.number));
   if (frame.present[1]) {
     const auto& viseme = frame.viseme;
     for (const int field : {viseme.select1, viseme.select2, viseme.blend, viseme.viseme_def}) append(text, field);
@@ -37,7 +38,7 @@ void append_frame(std::string& text, const FapFileFrame& frame) {
 std::string write_fap_file(const FapFile& file) {
   assert(!file.frames.empty() && file.frames.front().number == 0);
   std::string text = "2.1 " + (file.name.empty() ? "semblante" : file.name) + " " + write_fap_number(file.rate) + " " +
-                     std::to_string(file.frames.size()) + "\n";
+                     natural_text(file.frames.size()) + "\n";
   for (const auto& frame : file.frames) append_frame(text, frame);
   return text;
 }

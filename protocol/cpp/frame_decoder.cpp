@@ -3,6 +3,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include "core/types/decimal.h"
 #include "protocol/cpp/byte_io.h"
 #include "protocol/cpp/frame_codec.h"
 #include "protocol/cpp/opus_packet.h"
@@ -26,7 +27,7 @@ class BinaryFieldReader {
     if (error_) return;
     const std::uint64_t read = in_.varint();
     if (ended(name)) return;
-    if (read > max) return fail(ErrorCode::out_of_range, name, "must be at most " + std::to_string(max));
+    if (read > max) return fail(ErrorCode::out_of_range, name, "must be at most " + natural_text(max));
     value = static_cast<Int>(read);
   }
   void real(const char* name, double& value, double min, double max, Presence) {
@@ -55,7 +56,7 @@ class BinaryFieldReader {
     const std::uint64_t count = in_.varint();
     if (ended(name)) return;
     if (count != 0 && count != length) {
-      return fail(ErrorCode::out_of_range, name, "must have 0 or " + std::to_string(length) + " elements");
+      return fail(ErrorCode::out_of_range, name, "must have 0 or " + natural_text(length) + " elements");
     }
     values.assign(count, 0.0);
     for (double& value : values) real(name, value, min, max, presence);
@@ -92,7 +93,7 @@ class BinaryFieldReader {
     const std::uint64_t size = in_.varint();
     if (ended(name)) return {};
     if (size > max) {
-      fail(ErrorCode::too_large, name, "must not exceed " + std::to_string(max) + " bytes");
+      fail(ErrorCode::too_large, name, "must not exceed " + natural_text(max) + " bytes");
       return {};
     }
     const auto bytes = in_.take(size);
@@ -149,7 +150,7 @@ Result<Message> read_by_type(std::span<const std::uint8_t> bytes, const std::var
     return true;
   };
   static_cast<void>(((MessageTraits<M>::type == bytes[0] && read(std::type_identity<M>())) || ...));
-  if (!result) return Error{ErrorCode::unsupported, "/type", "no message has the type " + std::to_string(bytes[0])};
+  if (!result) return Error{ErrorCode::unsupported, "/type", "no message has the type " + natural_text(bytes[0])};
   return *std::move(result);
 }
 

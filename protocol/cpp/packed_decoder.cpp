@@ -1,5 +1,6 @@
 #include <string>
 
+#include "core/types/decimal.h"
 #include "protocol/cpp/byte_io.h"
 #include "protocol/cpp/packed_codec.h"
 #include "protocol/cpp/packed_model.h"
@@ -54,7 +55,7 @@ Status read_packed_frames(std::span<const std::uint8_t> bytes, PackedState& stat
                           const PackedTable& table) {
   const std::uint64_t next = state.sequence + 1;
   if (bytes.empty() || (bytes[0] & 0x7FU) != (next & 0x7FU)) {
-    return Error{ErrorCode::mismatch, "/sequence", "frame " + std::to_string(next) + " is expected"};
+    return Error{ErrorCode::mismatch, "/sequence", "frame " + natural_text(next) + " is expected"};
   }
   PackedState read = state;
   RangeDecoder coder(bytes.subspan(1));
@@ -67,7 +68,7 @@ Status read_packed_frames(std::span<const std::uint8_t> bytes, PackedState& stat
   if (auto status = check(coder, model, [] { return std::string(); }); !status) return std::move(status).error();
   if (count > max_media_time - state.sequence) return out_of_range("/sequence");
   for (std::uint64_t i = 0; i < count; ++i) {
-    const auto where = [i] { return "/frames/" + std::to_string(i); };
+    const auto where = [i] { return "/frames/" + natural_text(i); };
     TimedFrame frame;
     if (i > 0) time += model.step(0);
     if (time > max_frame_time) {

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/tables/mpeg4.h"
+#include "core/types/decimal.h"
 #include "protocol/cpp/face_frame.h"
 #include "protocol/cpp/messages.h"
 #include "protocol/cpp/packed_codec.h"
@@ -322,7 +323,7 @@ void PackedModel<Coder>::group(const mpeg4::FapGroup& group, FaceFrame& now) {
       continue;
     }
     const int value = level(fap, now, now.level[fap]);
-    if (value < -limit || value > limit) fail("/faps/" + std::to_string(fap));
+    if (value < -limit || value > limit) fail("/faps/" + natural_text(fap));
     now.level[fap] = static_cast<std::int16_t>(held(value));
   }
 }

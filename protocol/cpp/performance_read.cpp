@@ -6,6 +6,7 @@
 #include "core/json/json_cursor.h"
 #include "core/json/json_tree.h"
 #include "core/tables/mpeg4.h"
+#include "core/types/decimal.h"
 #include "protocol/cpp/performance_document.h"
 
 namespace semblante {
@@ -204,7 +205,7 @@ void read_members(const JsonCursor& root, PerformanceScript& script) {
     format.fail(ErrorCode::unsupported, "must be \"" + std::string(performance_format) + "\"");
   const auto version = root.member("version");
   if (version.number() != performance_version)
-    version.fail(ErrorCode::unsupported, "the supported version is " + std::to_string(performance_version));
+    version.fail(ErrorCode::unsupported, "the supported version is " + natural_text(performance_version));
   if (const auto name = root.optional_member("name")) script.name = name->text(max_performance_text_bytes);
   if (const auto note = root.optional_member("note")) (void)note->text(max_performance_text_bytes);
   script.duration = optional_number(root, "duration");
@@ -228,14 +229,13 @@ Result<PerformanceScript> read_performance(std::string_view text) {
   const auto take = [&](std::size_t index, const JsonView& element) -> Status {
     if (index == max_performance_cues)
       return Error{ErrorCode::too_large, "/cues",
-                   "a performance has at most " + std::to_string(max_performance_cues) + " cues"};
+                   "a performance has at most " + natural_text(max_performance_cues) + " cues"};
     JsonCursor::Report report;
-    const JsonCursor at(element, "/cues/" + std::to_string(index), report);
+    const JsonCursor at(element, "/cues/" + natural_text(index), report);
     Cue cue = read_cue(at);
     keys += cue.keys.size();
     if (!report && keys > max_performance_keys)
-      at.member("keys").fail(ErrorCode::too_large,
-                             "more than " + std::to_string(max_performance_keys) + " keys in all");
+      at.member("keys").fail(ErrorCode::too_large, "more than " + natural_text(max_performance_keys) + " keys in all");
     if (report) return *report;
     script.cues.push_back(std::move(cue));
     return Unit{};

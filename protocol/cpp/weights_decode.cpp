@@ -3,6 +3,7 @@
 #include <cstring>
 #include <string>
 
+#include "core/types/decimal.h"
 #include "core/types/moving_parts.h"
 #include "protocol/cpp/byte_io.h"
 #include "protocol/cpp/inflate.h"
@@ -35,7 +36,7 @@ struct Header {
 }
 [[gnu::noinline]] bool fail(Error& fault, ErrorCode code, const char* where, const char* before, std::uint64_t number,
                             const char* after = "") {
-  return fail(fault, code, where, before, std::to_string(number) + after);
+  return fail(fault, code, where, before, natural_text(number) + after);
 }
 
 std::uint32_t checksum(std::span<const std::uint8_t> bytes) {

@@ -123,6 +123,34 @@ TEST(Decimal, Writing_IsThatOfTheStandardLibrary) {
   EXPECT_EQ(shortest_fixed_text(1e21), "1000000000000000000000");
 }
 
+TEST(Decimal, WholeNumbers_AreThoseOfTheStandardLibrary) {
+  std::mt19937_64 random(13);
+  for (unsigned shift = 0; shift < 64; ++shift) {
+    for (int i = 0; i < 20; ++i) {
+      const std::uint64_t value = random() >> shift;
+      EXPECT_EQ(natural_text(value), std::to_string(value));
+      EXPECT_EQ(whole_text(static_cast<std::int64_t>(value)), std::to_string(static_cast<std::int64_t>(value)));
+    }
+  }
+  EXPECT_EQ(natural_text(0), "0");
+  EXPECT_EQ(natural_text(~std::uint64_t{0}), "18446744073709551615");
+  EXPECT_EQ(whole_text(0), "0");
+  EXPECT_EQ(whole_text(std::numeric_limits<std::int64_t>::min()), "-9223372036854775808");
+}
+
+TEST(Decimal, PowersOfTenAndTheirNeighbours_HaveTheFewestDigits) {
+  for (int power = -323; power <= 308; ++power) {
+    const double ten = standard<double>("1e" + std::to_string(power));
+    for (const double value : {std::nextafter(ten, 0.0), ten, std::nextafter(ten, 1e300)}) {
+      EXPECT_EQ(read_double(shortest_text(value)), value) << power;
+      EXPECT_LE(shortest_text(value).size(), nlohmann::json(value).dump().size()) << power;
+    }
+    if (power < -4 || power > 15) {
+      EXPECT_EQ(shortest_text(ten), nlohmann::json(ten).dump());
+    }
+  }
+}
+
 /// The neighbour above a power of two is farther than that below: the fewest digits need not be the nearest ones.
 TEST(Decimal, PowersOfTwo_HaveTheFewestDigits) {
   EXPECT_EQ(shortest_text(0x1p-1017), "7.120236347223045e-307");
