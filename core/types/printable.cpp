@@ -3,6 +3,20 @@
 #include <algorithm>
 
 namespace semblante {
+namespace {
+
+/// Whether a character acts on the text around it in place of being shown: ASCII's controls and those of U+0080 to
+/// U+009F, which some terminals obey; breaks of lines and paragraphs; and what reverses the order of the text that
+/// follows, by which a name can look like another.
+bool is_control(std::string_view character) {
+  const auto first = static_cast<unsigned char>(character[0]);
+  if (first < 0x20 || first == 0x7F) return true;
+  if (character.size() == 2) return character < "\xC2\xA0";
+  return (character >= "\xE2\x80\xA8" && character <= "\xE2\x80\xAE") ||  // U+2028 to U+202E
+         (character >= "\xE2\x81\xA6" && character <= "\xE2\x81\xA9");    // U+2066 to U+2069
+}
+
+}  // namespace
 
 std::size_t utf8_length(std::string_view text) {
   const auto byte = [&text](std::size_t i) { return static_cast<unsigned char>(i < text.size() ? text[i] : '\0'); };
@@ -40,8 +54,8 @@ std::string printable(std::string_view name) {
   std::string text;
   while (!name.empty()) {
     const std::size_t size = utf8_length(name);
-    const bool control = size == 1 && (static_cast<unsigned char>(name[0]) < 0x20 || name[0] == 0x7F);
-    const std::string_view character = size == 0 || control ? "?" : name.substr(0, size);
+    const bool is_shown = size > 0 && !is_control(name.substr(0, size));
+    const std::string_view character = is_shown ? name.substr(0, size) : "?";
     if (text.size() + character.size() > max_bytes) break;
     text.append(character);
     name.remove_prefix(utf8_step(name));

@@ -15,8 +15,8 @@ std::size_t utf8_step(std::string_view text);
 /// The byte at which `text` stops being valid UTF-8; its size if all of it is.
 std::size_t utf8_end(std::string_view text);
 
-/// Makes an untrusted name safe for output: valid UTF-8 (other bytes become '?'), no control characters, at most 200
-/// bytes.
+/// Makes an untrusted name safe for output: valid UTF-8, at most 200 bytes. Other bytes become '?', and so do control
+/// characters, breaks of lines, and characters that change the direction of the text.
 std::string printable(std::string_view name);
 
 }  // namespace semblante
