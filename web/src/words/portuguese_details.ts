@@ -7,6 +7,7 @@ export const portugueseDetails: Sentences = {
   'line {number}': 'linha {number}',
   'line {line}, word {number}': 'linha {line}, palavra {number}',
   'vertex {number}': 'vértice {number}',
+  'texture coordinate {number}': 'coordenada de textura {number}',
   'face {number}': 'face {number}',
   'facet {number}': 'faceta {number}',
   'morph target {name}': 'morph target {name}',
