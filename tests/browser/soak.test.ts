@@ -27,6 +27,22 @@ const bytesOfTheMoment = 60_000;
 /** A head of the sample's size has 900 kB, its smallest part, the numbers of its poses, 5 kB. */
 const bytesOfARound = 2_000;
 
+/**
+ * A heap of WebAssembly never shrinks: it grows once more where two heads happen to be there at the same time, as on a slow page.
+ * What is never freed grows in every stretch of rounds.
+ */
+const stretches = 3;
+
+/** What a page holds more after some rounds than the moment explains; empty: nothing. */
+function whatGrew(before: Held, after: Held, rounds: number): string[] {
+  const grown = Object.keys(after.gpu).filter((kind) => after.gpu[kind]! > before.gpu[kind]!);
+  const bytes = bytesOf(after.scripts) - bytesOf(before.scripts);
+  if (bytes >= bytesOfTheMoment + rounds * bytesOfARound) grown.push(`${bytes} bytes: ${growthOf(before.scripts, after.scripts)}`);
+  if (after.nodes - before.nodes >= nodesOfTheMoment) grown.push(`${after.nodes - before.nodes} nodes`);
+  if (after.listeners > before.listeners) grown.push(`${after.listeners - before.listeners} listeners`);
+  return grown;
+}
+
 /** Counts the objects of WebGL that a page has made and not deleted. Runs in the page, before its scripts. */
 function countGpuObjects(): void {
   const live: Record<string, number> = {};
@@ -106,20 +122,23 @@ test('Studio_Used_HoldsNoMoreAfterEachRound', async () => {
   };
 
   for (let i = 0; i < warmUp; i += 1) await round();
-  const before = await held();
-  const end = Date.now() + seconds * 1000;
-  let rounds = 0;
-  while (rounds < fewRounds || Date.now() < end) {
-    await round();
-    rounds += 1;
+  let before = await held();
+  let grown: string[] = [];
+  for (let stretch = 0; stretch < stretches; stretch += 1) {
+    const end = Date.now() + seconds * 1000;
+    let rounds = 0;
+    while (rounds < fewRounds || Date.now() < end) {
+      await round();
+      rounds += 1;
+    }
+    const after = await held();
+    const told = ({ scripts, ...others }: Held): object => ({ ...others, bytes: bytesOf(scripts) });
+    console.info(`${rounds} rounds, before and after: ${JSON.stringify([told(before), told(after)])}; ${growthOf(before.scripts, after.scripts)}`);
+    grown = whatGrew(before, after, rounds);
+    if (grown.length === 0) break;
+    before = after;
   }
-  const after = await held();
-  const told = ({ scripts, ...others }: Held): object => ({ ...others, bytes: bytesOf(scripts) });
-  console.info(`${rounds} rounds, before and after: ${JSON.stringify([told(before), told(after)])}; ${growthOf(before.scripts, after.scripts)}`);
-  for (const [kind, count] of Object.entries(after.gpu)) expect(count, kind).toBeLessThanOrEqual(before.gpu[kind]!);
-  expect(bytesOf(after.scripts) - bytesOf(before.scripts), growthOf(before.scripts, after.scripts)).toBeLessThan(bytesOfTheMoment + rounds * bytesOfARound);
-  expect(after.nodes - before.nodes, 'nodes').toBeLessThan(nodesOfTheMoment);
-  expect(after.listeners - before.listeners, 'listeners').toBeLessThanOrEqual(0);
+  expect(grown).toEqual([]);
   expect(studio.errors).toEqual([]);
   await studio.close();
-}, seconds * 2000 + 1_200_000);
+}, stretches * (seconds * 2000 + 600_000) + 600_000);
