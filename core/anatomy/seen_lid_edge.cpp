@@ -108,8 +108,4 @@ bool is_on_edge(double off, double open, double eye_separation) {
   return std::abs(off) < least_share_of_fold * open || std::abs(off) < least_fold * eye_separation;
 }
 
-bool is_on_fold(const SeenLidEdge& edge, double eye_separation) {
-  return edge.share >= least_share_of_fold && edge.share * edge.way >= least_fold * eye_separation;
-}
-
 }  // namespace semblante

@@ -40,11 +40,8 @@ std::optional<SeenEye> seen_eye(const Surface& surface, std::span<const Part> pa
                                 std::span<const Triangle> triangles, const Similarity& frame, double x, double low,
                                 double high);
 
-/// Whether the point lies on the fold of its lid. `eye_separation` is ES0 in the frame.
-bool is_on_fold(const SeenLidEdge& edge, double eye_separation);
-
-/// Whether a point that is `off` the edge of its lid in height lies on the edge nevertheless, of an eye that is seen to
-/// be `open` high, both in the frame.
+/// Whether a lid's point counts as lying on the edge of the lid, not on the fold beside it. `off`: its height above or
+/// below the edge; `open`: the height of the open eye; `eye_separation`: ES0. All three in the frame.
 bool is_on_edge(double off, double open, double eye_separation);
 
 }  // namespace semblante

@@ -46,7 +46,8 @@ std::vector<Finding> find_points_off_lid_edge(const Subject& head) {
       if (is_misplaced(head.misplaced, point.id)) continue;
       const auto edge = seen_lid_edge(head.surface, head.rig.parts, head.model.triangles, {}, point.position,
                                       (is_upper ? *lower : *upper).position);
-      if (!edge || !is_on_fold(*edge, head.frame.eye_separation.value_or(0.0))) continue;
+      const double eye_separation = head.frame.eye_separation.value_or(0.0);
+      if (!edge || is_on_edge(edge->share * edge->way, edge->way, eye_separation)) continue;
       const auto vertex = nearest_free(head, points, point, edge->place);
       const double before = glm::distance(point.position, edge->place);
       if (!vertex || glm::distance(head.surface.positions[vertex->value()], edge->place) > 0.5 * before) continue;

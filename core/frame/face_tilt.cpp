@@ -40,7 +40,8 @@ glm::dmat3 rotation_between(const glm::dvec3& from, const glm::dvec3& to) {
   return glm::mat3_cast(glm::normalize(glm::dquat(1.0 + glm::dot(from, to), axis.x, axis.y, axis.z)));
 }
 
-/// The part of the tilt that is not pitch, of a face of any proportions: a creature's points are mirror images too.
+/// The rotation that takes yaw and roll from a face of any proportions, by the symmetry of its points. Empty if it is
+/// less than `least_tilt`.
 std::optional<glm::dmat3> straight_by_symmetry(const Places& places) {
   const auto symmetry = symmetry_of_points(places);
   if (!symmetry) return std::nullopt;

@@ -23,7 +23,7 @@ class PlyValues {
   /// The number of items of a list, checked against the unread bytes.
   Result<std::size_t> list_size(const PlyProperty& list);
 
-  /// Of a text: an element has been read, and its line should end here. Its place is kept if it does not.
+  /// To be called after each element. In a text the line should end there; if it does not, misplaced() tells where.
   void end_element() {
     if (is_text_ && !misplaced_ && line_.find_first_not_of(" \t\r") != std::string_view::npos) misplaced_ = where();
   }

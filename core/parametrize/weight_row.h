@@ -16,7 +16,7 @@ class WeightRow {
     listed_.insert(id);
     return weights_[id];
   }
-  /// Calls `visit(id, weight)` in rising order of ids: for every weight that is not zero, and for some that are.
+  /// Calls `visit(id, weight)` in rising order of ids: for every weight that is not zero, and for some that are zero.
   template <class Visit>
   void for_each(Visit visit) const {
     listed_.for_each([&](std::size_t id) { visit(id, weights_[id]); });

@@ -227,7 +227,8 @@ class Proposer {
     }
   }
 
-  /// Middles of lids that do not lie on the edges, as mirror images where one eye is higher than the other.
+  /// Moves proposed middles of lids to the edges of the lids. Mirror images miss them where one eye is higher than the
+  /// other.
   void correct_lid_edges() {
     for (const mpeg4::Opening& opening : mpeg4::openings) {
       if (opening.is_mouth) continue;

@@ -294,7 +294,7 @@ Shortest shortest_of(double value) {
   };
   int exponent = 0;
   const bool is_power_of_two = std::frexp(value, &exponent) == 0.5;
-  // Of the power of two below, that of ten is the same or one less than that of the value.
+  // The greatest power of two up to the value has the same power of ten as the value, or one less.
   int magnitude = static_cast<int>(std::floor((exponent - 1) * std::numbers::ln2 / std::numbers::ln10));
   if (rounded(*split("1e" + whole_text(magnitude + 1)), 53, -1074) <= value) ++magnitude;
   for (int count = 1;; ++count) {
@@ -349,7 +349,7 @@ std::string natural_text(std::uint64_t value) {
 }
 
 std::string whole_text(std::int64_t value) {
-  // Negated as it is without a sign, where the least value has a negative.
+  // Negated as an unsigned number: as a signed one the negative of the least value would overflow.
   return value < 0 ? "-" + natural_text(0 - static_cast<std::uint64_t>(value))
                    : natural_text(static_cast<std::uint64_t>(value));
 }

@@ -28,7 +28,7 @@ const bytesOfTheMoment = 60_000;
 const bytesOfARound = 2_000;
 
 /**
- * A heap of WebAssembly never shrinks: it grows once more where two heads happen to be there at the same time, as on a slow page.
+ * The heap of WebAssembly never shrinks. On a slow page it grows once more, when two heads are loaded at the same time.
  * What is never freed grows in every stretch of rounds.
  */
 const stretches = 3;

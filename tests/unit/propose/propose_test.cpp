@@ -128,7 +128,7 @@ TEST_F(Propose, PutsTheBossOfTheChinBelowTheLowerLip) {
   EXPECT_LT(model_.positions[lip].y, boss.y - 0.05F * 0.064F);
 }
 
-// The mirror image of the lower left lid lies on the fold below the lower lid.
+// The mirror image of the left lower lid's middle lies on the fold below the right lower lid.
 TEST_F(Propose, PutsLidsOnTheirEdges_OfAnEyeThatIsHigherThanTheOther) {
   const auto point = [&](const char* name) -> FeaturePoint& {
     return *std::find_if(all_.begin(), all_.end(), [&](const FeaturePoint& p) { return p.id == fp(name); });
