@@ -59,11 +59,14 @@ export class StreamSound {
     return context && this.isOn ? this.schedule.heardAt(context.currentTime * 1000 - latency(context)) : NaN;
   }
 
-  /** To call by a tap or a key. Rejects where the browser does not allow sound. */
+  /** To call by a tap or a key. Rejects where the browser does not allow sound or does not decode Opus. */
   async start(): Promise<void> {
+    const { rate, channels } = this.client.header?.sound ?? { rate: 48_000, channels: 1 };
+    // The first decoder takes a browser 100 ms, by which the first packet would come too late.
+    this.decoderOf(rate, channels);
     // The rate of Opus: otherwise each packet would be resampled by itself, which is heard at its ends.
     if (!this.context) {
-      this.context = new AudioContext({ sampleRate: this.client.header?.sound?.rate ?? 48_000, latencyHint: 'interactive' });
+      this.context = new AudioContext({ sampleRate: rate, latencyHint: 'interactive' });
       this.schedule = new SoundSchedule(this.context.sampleRate);
       this.out = this.context.createGain();
       this.out.connect(this.context.destination);
