@@ -6,15 +6,10 @@
 #include <string>
 #include <string_view>
 
+#include "core/types/letter_case.h"
+
 namespace semblante {
 namespace {
-
-std::string lower_case(std::string_view name) {
-  std::string text(name);
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
 
 bool has_any(const std::string& name, std::initializer_list<std::string_view> words) {
   return std::any_of(words.begin(), words.end(), [&](std::string_view w) { return name.find(w) != std::string::npos; });

@@ -2,6 +2,7 @@
 
 #include "core/bridges/arkit.h"
 #include "core/bridges/generated/arkit_tables.h"
+#include "core/types/letter_case.h"
 
 namespace semblante {
 
@@ -12,7 +13,7 @@ std::string_view arkit_name(std::size_t index) {
 
 std::optional<std::size_t> find_arkit(std::string_view name) {
   if (name.empty()) return std::nullopt;
-  const char first = name[0] >= 'A' && name[0] <= 'Z' ? static_cast<char>(name[0] - 'A' + 'a') : name[0];
+  const char first = lower_case(name[0]);
   for (std::size_t i = 0; i < arkit_count; ++i) {
     const std::string_view known = generated::arkit_shapes[i].name;
     if (known[0] == first && known.substr(1) == name.substr(1)) return i;

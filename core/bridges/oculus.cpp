@@ -8,6 +8,7 @@
 #include "core/bridges/axis_displacements.h"
 #include "core/bridges/generated/arkit_tables.h"
 #include "core/tables/mpeg4.h"
+#include "core/types/letter_case.h"
 
 namespace semblante {
 namespace {
@@ -15,8 +16,6 @@ namespace {
 constexpr std::array<std::string_view, oculus_count> names = {"sil", "PP", "FF", "TH", "DD", "kk", "CH", "SS",
                                                               "nn",  "RR", "aa", "E",  "ih", "oh", "ou"};
 using Weights = std::array<double, oculus_count>;
-
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
 void use_nearest_pair(const Weights& weight, semblante_frame& frame) {
   std::size_t first = 0;
@@ -106,10 +105,7 @@ std::string_view oculus_name(std::size_t index) { return names.at(index); }
 
 std::optional<std::size_t> find_oculus(std::string_view name) {
   for (std::size_t v = 0; v < oculus_count; ++v) {
-    if (std::equal(name.begin(), name.end(), names[v].begin(), names[v].end(),
-                   [](char a, char b) { return lower(a) == lower(b); })) {
-      return v;
-    }
+    if (equal_ignoring_case(name, names[v])) return v;
   }
   return std::nullopt;
 }

@@ -8,6 +8,8 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "core/types/letter_case.h"
+
 namespace semblante::codegen {
 namespace {
 
@@ -67,7 +69,7 @@ std::string snake_case(const std::string& name) {
   for (const char c : name) {
     const bool upper = std::isupper(static_cast<unsigned char>(c)) != 0;
     if (upper && !result.empty()) result += '_';
-    result += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    result += lower_case(c);
   }
   return result;
 }

@@ -9,6 +9,7 @@
 #include "core/bridges/arkit.h"
 #include "core/bridges/oculus.h"
 #include "core/expressions/library.h"
+#include "core/types/letter_case.h"
 
 namespace semblante {
 namespace {
@@ -56,7 +57,7 @@ std::vector<std::string> words_of(std::string_view name) {
   std::vector<std::string> words(1);
   for (const char c : name) {
     if (std::isalnum(static_cast<unsigned char>(c)) != 0) {
-      words.back() += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+      words.back() += lower_case(c);
     } else if (!words.back().empty()) {
       words.emplace_back();
     }

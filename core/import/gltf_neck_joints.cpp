@@ -8,6 +8,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/types/letter_case.h"
 #include "core/types/printable.h"
 
 namespace semblante::import {
@@ -25,7 +26,7 @@ std::vector<std::string> words_of(std::string_view name) {
       const bool begins = std::isalpha(static_cast<unsigned char>(before)) == 0 ||
                           (std::isupper(letter) != 0 && std::islower(static_cast<unsigned char>(before)) != 0);
       if (begins) words.emplace_back();
-      words.back() += static_cast<char>(std::tolower(letter));
+      words.back() += lower_case(c);
     }
     before = c;
   }

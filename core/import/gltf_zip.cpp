@@ -7,6 +7,7 @@
 #include "core/import/relative_path.h"
 #include "core/import/text.h"
 #include "core/import/zip_archive.h"
+#include "core/types/letter_case.h"
 
 namespace semblante::import {
 namespace {

@@ -10,6 +10,7 @@
 #include "core/import/ply_reader.h"
 #include "core/import/stl_reader.h"
 #include "core/import/text.h"
+#include "core/types/letter_case.h"
 
 namespace semblante {
 namespace {
@@ -51,7 +52,7 @@ std::optional<ModelFormat> detect_format(std::span<const std::uint8_t> bytes, st
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   const std::size_t begin = std::min(text.find_first_not_of(" \t\r\n"), text.size());
   if (text.substr(begin).starts_with('{')) return ModelFormat::gltf;
-  const std::string head = import::lower_case(text.substr(begin, 4096));
+  const std::string head = lower_case(text.substr(begin, 4096));
   if (head.starts_with("solid") && head.find("facet") != std::string::npos) return ModelFormat::stl;
   if (const auto named = format_of_name(file_name)) return named;
   if (looks_like_obj(text)) return ModelFormat::obj;

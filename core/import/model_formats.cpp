@@ -1,14 +1,12 @@
 #include "core/import/model_formats.h"
 
-#include <algorithm>
+#include "core/types/letter_case.h"
 
 namespace semblante {
 namespace {
 
 bool has_ending(std::string_view name, std::string_view ending) {
-  if (name.size() < ending.size()) return false;
-  return std::equal(ending.begin(), ending.end(), name.end() - static_cast<std::ptrdiff_t>(ending.size()),
-                    [](char a, char b) { return a == (b >= 'A' && b <= 'Z' ? b - 'A' + 'a' : b); });
+  return name.size() >= ending.size() && equal_ignoring_case(name.substr(name.size() - ending.size()), ending);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "core/import/byte_reader.h"
 #include "core/import/model_builder.h"
 #include "core/import/text.h"
+#include "core/types/letter_case.h"
 #include "core/types/place.h"
 #include "core/types/printable.h"
 

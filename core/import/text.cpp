@@ -50,14 +50,6 @@ std::string_view next_token(std::string_view& rest) {
   return token;
 }
 
-std::string lower_case(std::string_view text) {
-  std::string lower(text);
-  for (char& c : lower) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return lower;
-}
-
 std::string shown(std::string_view token) {
   constexpr std::size_t max_shown = 40;
   std::size_t end = 0;

@@ -20,9 +20,6 @@ NumberFault parse_number(std::string_view token, float& value);
 /// The next run of characters other than blanks; empty at the end. Advances `rest`.
 std::string_view next_token(std::string_view& rest);
 
-/// With the letters A to Z as a to z.
-std::string lower_case(std::string_view text);
-
 /// "'abc'", made safe for display: truncated to 40 bytes, control characters and bytes that are no UTF-8 as '?'.
 std::string shown(std::string_view token);
 

@@ -1,9 +1,9 @@
 #include "core/materials/plain_materials.h"
 
-#include <algorithm>
 #include <array>
-#include <cctype>
 #include <string>
+
+#include "core/types/letter_case.h"
 
 namespace semblante {
 namespace {
@@ -57,8 +57,7 @@ constexpr std::array<Hint, 16> hints = {{
 Plain plain_of(std::string_view material, std::string_view primitive, PartRole role) {
   bool is_named_skin = false;
   for (const std::string_view name : {material, primitive}) {
-    std::string lower(name);
-    std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
+    const std::string lower = lower_case(name);
     // The mesh of a body may be called skin and have materials for clothing.
     if (!name.empty() && (material.empty() || name == material))
       is_named_skin = lower.find("skin") != std::string::npos;

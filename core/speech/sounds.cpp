@@ -4,6 +4,7 @@
 #include <array>
 
 #include "core/speech/sounds_tables.h"
+#include "core/types/letter_case.h"
 #include "core/types/printable.h"
 
 namespace semblante {
@@ -20,9 +21,7 @@ constexpr std::array<std::string_view, 4> measured_languages = {"pt", "pt-BR", "
 constexpr Sound neutral = {"", sounds::e, sounds::a, 0.6F, 0.5F, SoundKind::vowel};
 
 const SoundTable* find_table(std::string_view language) {
-  std::string primary(language.substr(0, language.find('-')));
-  std::transform(primary.begin(), primary.end(), primary.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  const std::string primary = lower_case(language.substr(0, language.find('-')));
   const auto at = std::find_if(tables().begin(), tables().end(),
                                [&](const SoundTable& table) { return table.language == primary; });
   return at == tables().end() ? nullptr : &*at;

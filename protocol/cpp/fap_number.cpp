@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/types/decimal.h"
+#include "core/types/letter_case.h"
 
 namespace semblante {
 namespace {
@@ -13,11 +14,6 @@ namespace {
 constexpr std::size_t max_word = 64;
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
-bool same_word(std::string_view word, std::string_view lower) {
-  return std::equal(word.begin(), word.end(), lower.begin(), lower.end(),
-                    [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; });
-}
 
 /// digits [. digits] [e [sign] digits], with a digit before or after the point.
 bool is_decimal(std::string_view word) {
@@ -44,10 +40,11 @@ std::optional<double> read_fap_number(std::string_view word) {
   if (word.size() > max_word) return std::nullopt;
   const bool negative = word.starts_with('-');
   if (negative || word.starts_with('+')) word.remove_prefix(1);
-  if (same_word(word, "inf") || same_word(word, "infinity") || same_word(word, "1.#inf")) {
+  if (equal_ignoring_case(word, "inf") || equal_ignoring_case(word, "infinity") ||
+      equal_ignoring_case(word, "1.#inf")) {
     return negative ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity();
   }
-  if (same_word(word, "nan") || same_word(word, "1.#qnan") || same_word(word, "1.#ind")) {
+  if (equal_ignoring_case(word, "nan") || equal_ignoring_case(word, "1.#qnan") || equal_ignoring_case(word, "1.#ind")) {
     return std::numeric_limits<double>::quiet_NaN();
   }
   if (!is_decimal(word)) return std::nullopt;

@@ -1,6 +1,5 @@
 // HttpClient::send() by Boost.Beast.
 #include <algorithm>
-#include <cctype>
 #include <exception>
 
 #include <boost/asio/co_spawn.hpp>
@@ -11,6 +10,7 @@
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/http.hpp>
 
+#include "core/types/letter_case.h"
 #include "protocol/http/connection.h"
 #include "protocol/http/http_client.h"
 
@@ -63,9 +63,7 @@ HttpResponse from_beast(http::response<http::string_body>&& message) {
   response.status = static_cast<int>(message.result_int());
   response.reason = std::string(message.reason());
   for (const auto& field : message) {
-    std::string name(field.name_string());
-    std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
-    response.headers.emplace_back(std::move(name), std::string(field.value()));
+    response.headers.emplace_back(lower_case(std::string(field.name_string())), std::string(field.value()));
   }
   response.body = std::move(message.body());
   return response;

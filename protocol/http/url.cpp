@@ -4,6 +4,8 @@
 #include <cctype>
 #include <charconv>
 
+#include "core/types/letter_case.h"
+
 namespace semblante::client {
 
 Result<Url> parse_url(std::string_view text) {
@@ -13,8 +15,7 @@ Result<Url> parse_url(std::string_view text) {
   };
   Url url;
   if (const auto end = text.find("://"); end != std::string_view::npos) {
-    std::string scheme(text.substr(0, end));
-    std::transform(scheme.begin(), scheme.end(), scheme.begin(), [](unsigned char c) { return std::tolower(c); });
+    const std::string scheme = lower_case(text.substr(0, end));
     if (scheme != "http" && scheme != "https") return no_address();
     url.secure = scheme == "https";
     if (url.secure) url.port = "443";

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/types/letter_case.h"
 #include "server/http/address_range.h"
 
 namespace semblante::api {
@@ -31,7 +32,7 @@ std::optional<std::string> host_of(std::string_view authority) {
 
 bool is_loopback(const std::string& host) {
   if (const auto address = http::parse_address(host)) return http::is_loopback(*address);
-  return http::equal_ignoring_case(host, "localhost");
+  return equal_ignoring_case(host, "localhost");
 }
 
 }  // namespace
@@ -40,14 +41,12 @@ bool is_own_origin(const http::Request& head) {
   const auto origin = head.header("Origin"), host = head.header("Host");
   if (!origin || !host) return false;
   const auto scheme = origin->find("://");
-  return scheme != std::string_view::npos && host_of(*host) &&
-         http::equal_ignoring_case(origin->substr(scheme + 3), *host);
+  return scheme != std::string_view::npos && host_of(*host) && equal_ignoring_case(origin->substr(scheme + 3), *host);
 }
 
 bool CertificateNames::contains(std::string_view name) const {
   const std::lock_guard lock(mutex_);
-  return std::any_of(names_.begin(), names_.end(),
-                     [&](const auto& known) { return http::equal_ignoring_case(known, name); });
+  return std::any_of(names_.begin(), names_.end(), [&](const auto& known) { return equal_ignoring_case(known, name); });
 }
 
 std::optional<http::Problem> Access::refuse_reading(const http::Request& head) const {
@@ -56,7 +55,7 @@ std::optional<http::Problem> Access::refuse_reading(const http::Request& head) c
   const auto host = host_of(*authority);
   const bool known = host && (is_loopback(*host) || certificate->contains(*host) ||
                               std::any_of(hosts.begin(), hosts.end(), [&](const auto& item) {
-                                return item == "*" || http::equal_ignoring_case(item, *host);
+                                return item == "*" || equal_ignoring_case(item, *host);
                               }));
   if (known) return std::nullopt;
   return http::make_problem(

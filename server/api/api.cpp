@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/types/letter_case.h"
 #include "protocol/cpp/performance_document.h"
 #include "server/api/authorization.h"
 #include "server/api/common.h"
@@ -106,7 +107,7 @@ std::size_t page_kind() { return routes().size(); }
 std::size_t other_kind() { return routes().size() + 1; }
 
 bool is_upgrade(const http::Request& head) {
-  return http::equal_ignoring_case(head.header("Upgrade").value_or(""), "websocket");
+  return equal_ignoring_case(head.header("Upgrade").value_or(""), "websocket");
 }
 
 /// The route that find_route() has found, or null.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/types/letter_case.h"
 #include "server/api/access.h"
 #include "server/api/common.h"
 #include "server/api/generated/handlers.h"
@@ -51,8 +52,7 @@ bool may_use_cookie(const http::Request& head, bool is_upgrade) {
 std::string token_of(const http::Request& head, bool is_upgrade) {
   constexpr std::string_view bearer = "Bearer ";
   if (const auto value = head.header("Authorization"); value && value->size() > bearer.size()) {
-    if (http::equal_ignoring_case(value->substr(0, bearer.size()), bearer))
-      return std::string(value->substr(bearer.size()));
+    if (equal_ignoring_case(value->substr(0, bearer.size()), bearer)) return std::string(value->substr(bearer.size()));
   }
   if (is_upgrade)
     for (const auto& name : http::split_list(head.header("Sec-WebSocket-Protocol").value_or("")))

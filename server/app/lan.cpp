@@ -10,6 +10,7 @@
 #include <arpa/inet.h>
 #include <net/if.h>
 
+#include "core/types/letter_case.h"
 #include "server/app/listening.h"
 #include "server/cli/command_failure.h"
 #include "server/http/address_range.h"
@@ -54,7 +55,7 @@ bool is_unspecified(const http::AddressBytes& address) {
 /// Whether connections to `name` arrive at a listener that is bound to `bound`.
 bool leads_to(const std::string& name, const std::string& bound, std::span<const std::string> own) {
   const auto address = http::parse_address(name);
-  if (!address) return !http::equal_ignoring_case(name, "localhost");
+  if (!address) return !equal_ignoring_case(name, "localhost");
   if (http::is_loopback(*address) || std::find(own.begin(), own.end(), name) == own.end()) return false;
   const auto place = *http::parse_address(bound);
   if (!is_unspecified(place)) return *address == place;

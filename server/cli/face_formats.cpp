@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 
+#include "core/types/letter_case.h"
 #include "server/cli/command_failure.h"
 #include "server/cli/files.h"
 
@@ -44,9 +45,7 @@ const FaceFormat* by_name(const std::string& name) {
 /// The format of a path, among those accepted by `filter`.
 template <class Filter>
 const FaceFormat* by_path(const std::string& path, const Filter& filter) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = lower_case(std::filesystem::path(path).extension().string());
   const auto found = std::find_if(formats.begin(), formats.end(),
                                   [&](const auto& f) { return f.extension == extension && filter(f); });
   return found == formats.end() ? nullptr : &*found;

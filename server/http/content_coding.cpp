@@ -7,6 +7,7 @@
 #include <system_error>
 #include <zlib.h>
 
+#include "core/types/letter_case.h"
 #include "server/http/media_type.h"
 
 namespace semblante::http {

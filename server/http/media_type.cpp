@@ -1,9 +1,9 @@
 #include "server/http/media_type.h"
 
-#include <algorithm>
 #include <array>
 #include <utility>
 
+#include "core/types/letter_case.h"
 #include "server/http/message.h"
 
 namespace semblante::http {
@@ -29,10 +29,7 @@ std::vector<std::string> split_list(std::string_view value, char separator) {
 }
 
 std::string essence(std::string_view media_type) {
-  std::string result(trim(media_type.substr(0, media_type.find(';'))));
-  std::transform(result.begin(), result.end(), result.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return result;
+  return lower_case(trim(media_type.substr(0, media_type.find(';'))));
 }
 
 std::string parameter(std::string_view value, std::string_view name) {

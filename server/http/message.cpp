@@ -3,21 +3,13 @@
 #include <algorithm>
 #include <system_error>
 
+#include "core/types/letter_case.h"
+
 namespace semblante::http {
-namespace {
-
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-
-}  // namespace
 
 bool CaseInsensitiveLess::operator()(std::string_view a, std::string_view b) const {
   return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(),
-                                      [](char x, char y) { return lower(x) < lower(y); });
-}
-
-bool equal_ignoring_case(std::string_view a, std::string_view b) {
-  return a.size() == b.size() &&
-         std::equal(a.begin(), a.end(), b.begin(), [](char x, char y) { return lower(x) == lower(y); });
+                                      [](char x, char y) { return lower_case(x) < lower_case(y); });
 }
 
 TemporaryFile::~TemporaryFile() {

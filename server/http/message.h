@@ -22,7 +22,6 @@ struct CaseInsensitiveLess {
   using is_transparent = void;
   bool operator()(std::string_view a, std::string_view b) const;
 };
-bool equal_ignoring_case(std::string_view a, std::string_view b);
 
 /// Field name -> value. A repeated field is joined by ", " as RFC 9110 section 5.3 allows.
 using Headers = std::map<std::string, std::string, CaseInsensitiveLess>;

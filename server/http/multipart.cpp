@@ -1,5 +1,6 @@
 #include "server/http/multipart.h"
 
+#include "core/types/letter_case.h"
 #include "server/http/media_type.h"
 #include "server/http/message.h"
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/types/letter_case.h"
 #include "core/types/percent_decode.h"
 #include "server/http/message.h"
 

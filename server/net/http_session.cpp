@@ -11,6 +11,7 @@
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/http/error.hpp>
 
+#include "core/types/letter_case.h"
 #include "server/http/media_type.h"
 #include "server/http/problem.h"
 #include "server/http/request_id.h"
@@ -63,7 +64,7 @@ bool is_websocket_upgrade(const RequestParser& parser, const http::Request& requ
   if (parser.version() != 11 || request.method != "GET" || !parser.upgrade()) return false;
   const auto protocols = http::split_list(request.header("Upgrade").value_or(""));
   return std::any_of(protocols.begin(), protocols.end(),
-                     [](const auto& name) { return http::equal_ignoring_case(name, "websocket"); });
+                     [](const auto& name) { return equal_ignoring_case(name, "websocket"); });
 }
 
 /// 16 bytes in base64.
@@ -232,7 +233,7 @@ class Session {
     if (plan.required && !length && !parser.chunked())
       co_return Unread{http::make_problem("length-required", "the request has neither Content-Length nor chunks")};
     if (const auto expect = request.header("Expect")) {
-      if (!http::equal_ignoring_case(*expect, "100-continue"))
+      if (!equal_ignoring_case(*expect, "100-continue"))
         co_return Unread{http::make_problem("malformed-request", "only Expect: 100-continue is supported")};
       transport_.expires_after(state_->config.limits.write_timeout);
       constexpr std::string_view go_on = "HTTP/1.1 100 Continue\r\n\r\n";

@@ -6,6 +6,7 @@
 
 #include <boost/beast/http/error.hpp>
 
+#include "core/types/letter_case.h"
 #include "server/http/url.h"
 #include "server/net/server.h"
 
@@ -121,8 +122,7 @@ std::optional<http::Problem> RequestParser::ambiguity() const {
   if (!coding) return std::nullopt;
   if (version_ < 11) return malformed("Transfer-Encoding needs HTTP/1.1");
   if (request_.header("Content-Length")) return malformed("the request has both Transfer-Encoding and Content-Length");
-  if (!http::equal_ignoring_case(*coding, "chunked"))
-    return malformed("the only supported Transfer-Encoding is chunked");
+  if (!equal_ignoring_case(*coding, "chunked")) return malformed("the only supported Transfer-Encoding is chunked");
   return std::nullopt;
 }
 

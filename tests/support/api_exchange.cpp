@@ -1,11 +1,11 @@
 #include "tests/support/api_exchange.h"
 
 #include <algorithm>
-#include <cctype>
 #include <fstream>
 
 #include <nlohmann/json.hpp>
 
+#include "core/types/letter_case.h"
 #include "tests/support/json_schema.h"
 
 namespace semblante::test {
@@ -101,8 +101,7 @@ Faults request_faults(const json& document, const json& operation, const ApiExch
 
 Faults exchange_faults(const json& document, const ApiExchange& exchange) {
   const auto* const item = path_item(document, exchange.target.substr(0, exchange.target.find('?')));
-  std::string method = exchange.method == "HEAD" ? "GET" : exchange.method;
-  std::transform(method.begin(), method.end(), method.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::string method = lower_case(exchange.method == "HEAD" ? "GET" : exchange.method);
   if (item == nullptr || !item->contains(method)) return faults_outside(document, exchange);
   const auto& operation = item->at(method);
   const auto& responses = operation.at("responses");

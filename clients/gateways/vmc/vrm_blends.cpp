@@ -7,15 +7,10 @@
 
 #include "core/bridges/arkit.h"
 #include "core/tables/mpeg4.h"
+#include "core/types/letter_case.h"
 
 namespace semblante::vmc {
 namespace {
-
-char small(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-
-bool same(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) { return small(x) == small(y); });
-}
 
 /// Looks up a value in a table of this program: a missing one is a mistake in the file.
 template <class Value>
@@ -72,14 +67,14 @@ const std::vector<VrmPreset>& vrm_presets() {
 std::optional<std::size_t> find_vrm_preset(std::string_view name) {
   const auto& presets = vrm_presets();
   for (std::size_t i = 0; i < presets.size(); ++i) {
-    if (same(presets[i].vrm0, name) || same(presets[i].vrm1, name)) return i;
+    if (equal_ignoring_case(presets[i].vrm0, name) || equal_ignoring_case(presets[i].vrm1, name)) return i;
   }
   return std::nullopt;
 }
 
 std::optional<std::size_t> find_perfect_sync(std::string_view name) {
   for (std::size_t i = 0; i < arkit_count; ++i) {
-    if (same(arkit_name(i), name)) return i;
+    if (equal_ignoring_case(arkit_name(i), name)) return i;
   }
   return std::nullopt;
 }

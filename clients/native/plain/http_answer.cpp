@@ -1,21 +1,16 @@
 #include "clients/native/plain/http_answer.h"
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <optional>
+
+#include "core/types/letter_case.h"
 
 namespace semblante::client {
 namespace {
 
 Error malformed(const char* what) { return {ErrorCode::malformed, "answer", what}; }
 Error too_large(const char* what) { return {ErrorCode::too_large, "answer", what}; }
-
-std::string lower(std::string_view text) {
-  std::string out(text);
-  std::transform(out.begin(), out.end(), out.begin(), [](unsigned char c) { return std::tolower(c); });
-  return out;
-}
 
 std::string_view trimmed(std::string_view text) {
   const auto is_blank = [](char c) { return c == ' ' || c == '\t'; };
@@ -125,7 +120,7 @@ Status HttpAnswer::read_head(std::string_view head) {
   while (!head.empty()) {
     std::string_view value = cut(head, "\r\n");
     const bool has_colon = value.find(':') != std::string_view::npos;
-    const std::string name = lower(cut(value, ":"));
+    const std::string name = lower_case(cut(value, ":"));
     if (!has_colon || name.empty() || name.find_first_of(" \t") != std::string::npos) {
       return malformed("a header field is NAME: VALUE");
     }
@@ -136,7 +131,7 @@ Status HttpAnswer::read_head(std::string_view head) {
       length = stated;
     }
     if (name == "transfer-encoding") {
-      if (is_chunked || lower(value) != "chunked") return malformed("the only transfer coding is chunked");
+      if (is_chunked || !equal_ignoring_case(value, "chunked")) return malformed("the only transfer coding is chunked");
       is_chunked = true;
     }
     response_.headers.emplace_back(name, value);

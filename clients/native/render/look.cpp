@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <string>
 #include <utility>
+
+#include "core/types/letter_case.h"
 
 namespace semblante::render {
 namespace {
@@ -72,8 +73,7 @@ bool says_nothing(const Material& material) {
 }  // namespace
 
 std::optional<Substance> substance_by_name(std::string_view name) {
-  std::string lower(name);
-  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::string lower = lower_case(name);
   // In this order: "EyeLashes" is hair before it is an eye, "EyeOcclusion" a film, "GumsTongue" gums.
   static constexpr std::array<std::pair<std::string_view, Substance>, 24> words = {{
       {"occlusion", Substance::film},  {"lacrimal", Substance::film},  {"tear", Substance::film},

@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "clients/runtime/codegen/declaration_files.h"
+#include "core/types/letter_case.h"
 
 namespace semblante::codegen {
 namespace {
@@ -17,7 +18,7 @@ int padded(int size, int alignment) { return (size + alignment - 1) / alignment 
 /// "semblante_timed_frame" -> "timedFrameLayout".
 std::string layout_name(const CStruct& record) {
   std::string name = camel_case_name(record);
-  name[0] = static_cast<char>(name[0] - 'A' + 'a');
+  name[0] = lower_case(name[0]);
   return name + "Layout";
 }
 

@@ -7,6 +7,7 @@
 #include "core/speech/timelines/timeline_lines.h"
 #include "core/speech/timelines/viseme_symbols.h"
 #include "core/types/decimal.h"
+#include "core/types/letter_case.h"
 
 namespace semblante::visemes {
 namespace {
@@ -34,9 +35,8 @@ constexpr double ticks_per_ms = 10'000.0;
 
 /// The number after `name` and blanks, in any case of letters: "Audio offset: 850ms".
 std::optional<double> number_after(std::string_view line, std::string_view name) {
-  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
-  const auto* const at =
-      std::search(line.begin(), line.end(), name.begin(), name.end(), [&](char a, char b) { return lower(a) == b; });
+  const auto* const at = std::search(line.begin(), line.end(), name.begin(), name.end(),
+                                     [](char a, char b) { return lower_case(a) == b; });
   if (at == line.end()) return std::nullopt;
   std::string_view rest = line.substr(static_cast<std::size_t>(at - line.begin()) + name.size());
   rest.remove_prefix(std::min(rest.find_first_not_of(": "), rest.size()));

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "core/types/letter_case.h"
+
 namespace semblante::tables {
 namespace {
 
@@ -34,11 +36,6 @@ std::pair<int, int> axis_and_sign(const json& axis) {
 }
 
 std::string quoted(const json& text) { return json(text).dump(); }
-
-std::string lower(std::string text) {
-  for (char& c : text) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + ('a' - 'A') : c);
-  return text;
-}
 
 std::string joined(const json& words) {
   std::string all;
@@ -126,8 +123,9 @@ std::string render_cpp_header(const TableData& data) {
     const json levels = fap.value("levels", json::array({0, 0}));
     const json usual = fap.value("usual", json::array({0, 0}));
     out << "    {" << fap["number"] << ", " << quoted(fap["name"]) << ", " << fap["group"]
-        << ", FapKind::" << fap["kind"].get<std::string>() << ", Unit::" << lower(fap.value("unit", "none")) << ", "
-        << (fap.value("directionality", "U") == "B" ? "true" : "false") << ", " << axis << ", " << sign << ", {";
+        << ", FapKind::" << fap["kind"].get<std::string>() << ", Unit::" << lower_case(fap.value("unit", "none"))
+        << ", " << (fap.value("directionality", "U") == "B" ? "true" : "false") << ", " << axis << ", " << sign
+        << ", {";
     for (std::size_t i = 0; i < points.size(); ++i) out << (i == 0 ? "" : ", ") << index_of(data, points[i]);
     out << "}, " << points.size() << ", " << fap.value("mirror", 0) << ", " << fap.value("mirror_sign", 0) << ", "
         << fap.value("quantizer_step", 1) << ", " << levels[0] << ", " << levels[1] << ", " << usual[0] << ", "

@@ -11,6 +11,7 @@
 #include <espeak-ng/speak_lib.h>
 #include <sys/resource.h>
 
+#include "core/types/letter_case.h"
 #include "server/jobs/isolation.h"
 #include "server/voice/espeak/bounded_words.h"
 #include "server/voice/espeak/dictionaries.h"
@@ -89,8 +90,7 @@ int take(short* samples, int count, espeak_EVENT* events) {
 /// "pt-BR" -> "pt-br"; English without a country is American.
 bool choose_voice(const VoiceRequest& request) {
   if (!request.voice.empty()) return espeak_SetVoiceByName(request.voice.c_str()) == EE_OK;
-  std::string name = request.language;
-  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
+  std::string name = lower_case(request.language);
   if (name == "en") name = "en-us";
   if (name == "pt") name = "pt-br";
   if (espeak_SetVoiceByName(name.c_str()) == EE_OK) return true;

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/types/letter_case.h"
 #include "tests/unit/import/test_files.h"
 
 namespace semblante::test {
@@ -99,8 +100,7 @@ TEST(ModelFormats, ReadMes_NameEach) {
     std::ifstream file(std::string(SEMBLANTE_SOURCE_DIR) + path);
     const std::string text{std::istreambuf_iterator<char>(file), {}};
     for (const ModelFile& format : model_files) {
-      std::string lower(format.title);
-      for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+      const std::string lower = lower_case(format.title);
       EXPECT_TRUE(text.find(format.title) != std::string::npos || text.find(lower) != std::string::npos)
           << path << " does not name " << format.title;
     }
