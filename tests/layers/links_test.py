@@ -1,7 +1,9 @@
-"""Every relative link of every Markdown file of the tree leads to a file or folder, and with a # to a heading of that file.
+"""Every relative link of every Markdown file of the tree leads to a file or folder, and with a # to a heading of that file; every
+address /v1/... that such a file names, also behind the variable $api of its examples, is a route of the interface.
 
     links_test.py [TOP_OF_THE_TREE]"""
 
+import json
 import os
 import pathlib
 import re
@@ -12,6 +14,8 @@ NO_TEXTS = {"build", "node_modules", "dist", "data"}
 CODE = re.compile(r"```.*?```|`[^`\n]*`", re.DOTALL)
 FENCED = re.compile(r"```.*?```", re.DOTALL)
 LINK = re.compile(r"\]\(([^)\s]+)\)")
+ADDRESS = re.compile(r"(?<![\w./-])(?:(?:https?|wss?)://[\w.:-]+)?(?:\$api|/v1)((?:/[\w.-]+|/\$?\{\w+\}|/\$\w+)+)(?<!\.)")
+ROUTES = "server/api/openapi.json"
 HEADING = re.compile(r"^#+ +(.+?) *$", re.MULTILINE)
 
 
@@ -31,8 +35,21 @@ def anchors(text):
     return {anchor if n == 0 else f"{anchor}-{n}" for anchor, most in found.items() for n in range(most + 1)}
 
 
+def routes(top):
+    """The paths of the interface as expressions; a parameter stands for any one part."""
+    file = pathlib.Path(top, ROUTES)
+    if not file.exists():
+        return None
+    made = []
+    for path in json.loads(file.read_text())["paths"]:
+        parts = ["[^/]+" if part.startswith("{") else re.escape(part) for part in path.split("/")]
+        made.append("/".join(parts))
+    return re.compile("|".join(made))
+
+
 def check(top):
-    faults, links = [], 0
+    faults, links, addresses = [], 0, 0
+    known = routes(top)
     for path in texts(top):
         name = path.relative_to(top)
         text = path.read_text()
@@ -49,8 +66,12 @@ def check(top):
                 faults.append(f"{place}: the link {link} leads nowhere")
             elif anchor and target.suffix == ".md" and anchor not in anchors(target.read_text()):
                 faults.append(f"{place}: the link {link} names no heading of {target.name}")
-    return faults, links
+        for match in ADDRESS.finditer(text) if known else ():
+            addresses += 1
+            if not known.fullmatch("/v1" + match.group(1)):
+                faults.append(f"{name}:{text[:match.start()].count(chr(10)) + 1}: {match.group()} is no route of {ROUTES}")
+    return faults, links, addresses
 
 
 if __name__ == "__main__":
-    run(check, {"links": 150})
+    run(check, {"links": 150, "addresses": 100})
