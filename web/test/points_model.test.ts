@@ -1,4 +1,4 @@
-import { expect, test } from 'vitest';
+import { expect, test, vi } from 'vitest';
 import type { PlacedPoint } from '../src/face/point_draft.ts';
 import type { Api } from '../src/net/api.ts';
 import { ApiError } from '../src/net/problem.ts';
@@ -8,7 +8,7 @@ import { MirrorLock } from '../src/ui/points/mirror_lock.ts';
 import { PointsModel } from '../src/ui/points/points_model.ts';
 import { SettingsStore } from '../src/ui/points/settings_store.ts';
 import { Studio } from '../src/ui/shared/studio.ts';
-import type { Toasts } from '../src/ui/shared/toast.ts';
+import type { ToastAction, Toasts } from '../src/ui/shared/toast.ts';
 import { memory } from './support/memory.ts';
 import { importingModel } from './support/models.ts';
 
@@ -47,14 +47,19 @@ class Server {
 }
 
 /** The page of one person who has opened the head. */
-async function open(server: Server, storage = memory()): Promise<{ points: PointsModel; said: string[]; problems: string[] }> {
+async function open(server: Server, storage = memory()): Promise<{ points: PointsModel; said: string[]; problems: string[]; actions: ToastAction[] }> {
   const said: string[] = [];
   const problems: string[] = [];
-  const toasts = { say: (words: string) => said.push(words), problem: (words: string) => problems.push(words) } as unknown as Toasts;
+  const actions: ToastAction[] = [];
+  const problem = (words: string, _: unknown, action?: ToastAction): void => {
+    problems.push(words);
+    if (action) actions.push(action);
+  };
+  const toasts = { say: (words: string) => said.push(words), problem } as unknown as Toasts;
   const studio = new Studio(server.api as unknown as Api, toasts);
   const points = new PointsModel(studio, new DraftStore(storage), new MirrorLock(studio, new SettingsStore(memory())));
   await points.open(ana);
-  return { points, said, problems };
+  return { points, said, problems, actions };
 }
 
 const vertices = (points: Iterable<[string, PlacedPoint]>): object => Object.fromEntries([...points].map(([id, { vertex }]) => [id, vertex]));
@@ -156,4 +161,24 @@ test('Points_OfAHeadTurnedByAnother_AreReadAgain', async () => {
   await points.update({ ...ana, frame: { axes: { up: '+Z', front: '-Y' } } as Model['frame'] });
   expect(points.draft.points.get('2.1')?.vertex).toBe(10);
   expect(points.draft.canUndo).toBe(false);
+});
+
+test('File_WithRefusedPoints_IsSaidAndTheOthersCanBeTaken', async () => {
+  const server = new Server();
+  const { points, said, problems, actions } = await open(server);
+  const { putFeaturePoints } = server.api;
+  server.api.putFeaturePoints = (id, body, options) =>
+    '3.5' in body.points
+      ? Promise.reject(new ApiError({ type: '/problems/invalid-feature-point', title: 'impossible', status: 422, errors: [{ pointer: '/points/3.5/vertex', detail: 'vertex 473 is not there' }] }))
+      : putFeaturePoints(id, body, options);
+  const file = new File([JSON.stringify({ points: { '2.1': at(5), '3.5': at(473), '8.3': at(6) } })], 'ana.fps.json');
+  expect(await points.importFile(file)).toBe(false);
+  expect(problems).toEqual(['The points of ana.fps.json were not accepted']);
+  expect(points.problemsOfFile).toBe(true);
+  expect(vertices(points.draft.points)).toEqual({ '2.1': 1, '3.1': 2 });
+  expect(actions.map(({ label }) => label)).toEqual(['Take the other 2']);
+  actions[0]!.act();
+  await vi.waitFor(() => expect(vertices(points.draft.points)).toEqual({ '2.1': 5, '8.3': 6 }));
+  await vi.waitFor(() => expect(said).toEqual(['2 feature points read from ana.fps.json.']));
+  expect(points.problems.size).toBe(0);
 });

@@ -6,6 +6,7 @@ import { ApiError, featurePointOf, fieldProblems, problemOf } from '../../net/pr
 import type { FeaturePointsBody, FeaturePointSet, Model } from '../../net/types.ts';
 import { saveFile } from '../shared/save_file.ts';
 import { Signal } from '../shared/signal.ts';
+import type { ToastAction } from '../shared/toast.ts';
 import type { DraftStore } from './draft_store.ts';
 import type { MirrorLock } from './mirror_lock.ts';
 import { isQuick, nextPoint, nextProposed, quickLeft } from './point_order.ts';
@@ -27,6 +28,8 @@ export class PointsModel {
   readonly busy = new Signal(false);
   /** Errors by feature point id; "" holds the errors that concern no single point. */
   problems: ReadonlyMap<string, readonly string[]> = new Map();
+  /** Whether the problems are of points of a file, of which none was taken. */
+  problemsOfFile = false;
   /** Whether guided mode leads the user through the quick set. */
   readonly guided = new Signal(true);
   /** The points that were changed elsewhere too, each with the server's point that the change here was made over. */
@@ -309,7 +312,7 @@ export class PointsModel {
   /** When someone else has saved meanwhile, both changes are saved, unless they are of the same point. */
   async save(mirror = false): Promise<boolean> {
     const failure = mirror ? t('The missing sides were not filled in') : t('The feature points were not saved');
-    const send = (): Promise<Outcome> => this.send(this.draft.toBody(), failure, mirror);
+    const send = (): Promise<Outcome> => this.send(this.draft.toBody(), failure, { mirror });
     let outcome = await send();
     if (outcome === 'overtaken' && this.contested.length === 0) outcome = await send();
     if (outcome === 'overtaken') this.sayOvertaken(failure);
@@ -346,12 +349,24 @@ export class PointsModel {
       this.setProblems({ '': [t('{name} is not JSON: {message}', { name: file.name, message: error instanceof Error ? error.message : '' })] });
       return false;
     }
+    return this.importPoints(body, file.name);
+  }
+
+  private async importPoints(body: FeaturePointsBody, name: string): Promise<boolean> {
+    const { model } = this;
     const back = this.wayBack();
-    const failure = t('The points of {name} were not accepted', { name: file.name });
-    const outcome = await this.send(body, failure);
+    const failure = t('The points of {name} were not accepted', { name });
+    const outcome = await this.send(body, failure, { others: (refused) => {
+      const others = Object.entries(body.points).filter(([id]) => !refused.has(id));
+      if (others.length === 0) return undefined;
+      const act = (): void => {
+        if (this.model?.id === model?.id) void this.importPoints({ ...body, points: Object.fromEntries(others) }, name);
+      };
+      return { label: t('Take the other {count}', { count: others.length }), act };
+    } });
     if (outcome === 'overtaken') this.sayOvertaken(failure);
     if (outcome === 'saved')
-      this.studio.toasts.say(t('{count} feature points read from {name}.', { count: this.draft.points.size, name: file.name }), {
+      this.studio.toasts.say(t('{count} feature points read from {name}.', { count: this.draft.points.size, name }), {
         label: t('Undo'),
         act: back,
       });
@@ -385,7 +400,12 @@ export class PointsModel {
     this.touch();
   }
 
-  private async send(body: FeaturePointsBody, failure: string, mirror = false): Promise<Outcome> {
+  /** `others`: of points that the panel does not show, what can be done without those that were refused. */
+  private async send(
+    body: FeaturePointsBody,
+    failure: string,
+    { mirror = false, others }: { mirror?: boolean; others?: (refused: ReadonlyMap<string, unknown>) => ToastAction | undefined } = {},
+  ): Promise<Outcome> {
     const model = this.model;
     if (!model) return 'refused';
     this.busy.set(true);
@@ -397,9 +417,11 @@ export class PointsModel {
       return 'saved';
     } catch (error) {
       if (isOvertaken(error)) return 'overtaken';
+      this.problemsOfFile = others !== undefined;
       this.show(error);
       const named = [...this.problems.keys()].some((id) => id !== '');
       if (!(error instanceof ApiError) || !named) this.studio.toasts.problem(failure, problemOf(error));
+      else if (others) this.studio.toasts.problem(failure, problemOf(error), others(this.problems));
       return 'refused';
     } finally {
       this.busy.set(false);

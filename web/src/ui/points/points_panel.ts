@@ -205,7 +205,7 @@ export class PointsPanel {
         wrong.map((id) =>
           h('button', { type: 'button', class: 'link', on: { click: () => this.points.chosen.set(id) } }, id),
         ),
-        t('. Move or remove, then save again.'),
+        this.points.problemsOfFile ? t('. No point of the file was taken.') : t('. Move or remove, then save again.'),
       ),
     );
   }

@@ -28,10 +28,15 @@ export class Toasts {
     setTimeout(() => toast.remove(), action ? 10_000 : 4000);
   }
 
-  problem(what: string, problem: Problem): void {
-    const advice = adviceFor(problem);
+  /** `action`: what a button below the text does, in place of advice. */
+  problem(what: string, problem: Problem, action?: ToastAction): void {
+    const advice = action ? null : adviceFor(problem);
     const detail = wordsOf(problem);
-    this.show(
+    const click = (): void => {
+      toast.remove();
+      action?.act();
+    };
+    const toast = this.show(
       'error',
       icon('warning'),
       h(
@@ -40,6 +45,7 @@ export class Toasts {
         h('strong', {}, what),
         h('p', {}, problem.pointer ? [h('code', {}, problem.pointer), ' '] : null, detail),
         advice ? h('p', { class: 'advice' }, advice) : null,
+        action ? h('button', { type: 'button', class: 'small', on: { click } }, action.label) : null,
       ),
     );
   }
