@@ -206,7 +206,7 @@ function main(root: HTMLElement, base: string, session: Session | null, theme: H
   stagePanel.onUpload = shelf.choose;
   stagePanel.onSample = () => void addSampleHead(studio, points, parametrizer);
   const example = { playing: clip.examplePlays, toggle: () => void clip.toggleExample() };
-  stepsBox({ studio, upload: shelf.choose, example, driver }, shelf.element, animate.element);
+  stepsBox({ studio, upload: shelf.choose, example, driver, streamSpeech: streamSpeech.state }, shelf.element, animate.element);
   stagePanel.onPart = (part) => fitPanel.revealPart(part);
   pointOutFindings(studio, fit, points, scene);
   flyToPoints(studio, points, scene);

@@ -71,13 +71,17 @@ test('Update_OpenHeadChangedElsewhere_IsTold_UnlessThisPageWorksOnIt', async () 
   server.heads = [{ ...head('ana', '2026-01-02T00:00:00.000Z'), package: parametrization('p1') }];
   await studio.update();
   expect(told).toEqual(['2026-01-02T00:00:00.000Z']);
-  expect(said).toEqual(['ana was parametrized elsewhere.']);
+  expect(said).toEqual(['ana can move now.']); // its first time
   server.heads = [{ ...head('ana', '2026-01-03T00:00:00.000Z'), package: parametrization('p2') }];
   studio.activities.set(new Map([['ana', { title: 'Parametrizing', progress: null }]]));
   await studio.update();
   expect(told).toHaveLength(1);
   expect(said).toHaveLength(1);
   expect(studio.selected.value?.package?.parametrization).toBe('p2');
+  studio.activities.set(new Map());
+  server.heads = [{ ...head('ana', '2026-01-04T00:00:00.000Z'), package: parametrization('p3') }];
+  await studio.update();
+  expect(said.at(-1)).toBe('ana was parametrized elsewhere.');
 });
 
 test('Update_NothingNew_ChangesNothing', async () => {

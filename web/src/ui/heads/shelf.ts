@@ -7,18 +7,13 @@ import { h, replace } from '../shared/dom.ts';
 import { formatPercent } from '../shared/format.ts';
 import { findingBadge } from '../shared/finding_badge.ts';
 import { headSize } from './head_size.ts';
+import { stateInWords } from './head_state.ts';
 import { icon } from '../shared/icons.ts';
 import { progressBar } from '../shared/progress_bar.ts';
 import { rove } from '../shared/roving.ts';
 import type { Activity, Studio } from '../shared/studio.ts';
 import { serverWords, t } from '../../words/words.ts';
 
-const stateWords: Record<Model['state'], string> = {
-  importing: t('Importing'),
-  ready: t('Needs points'),
-  parametrized: t('Ready to animate'),
-  failed: t('Failed'),
-};
 
 /** The list of heads: upload, choose, rename, delete. */
 export class Shelf {
@@ -187,7 +182,7 @@ export class Shelf {
             : h(
                 'span',
                 { class: 'muted small head-about' },
-                h('span', { class: `state state-${model.state}` }, stateWords[model.state]),
+                h('span', { class: `state state-${model.state}` }, stateInWords(model)),
                 facts ? [' ', h('span', { class: 'head-facts' }, facts)] : null,
               ),
         ),

@@ -3,6 +3,7 @@ import type { Model } from '../../net/types.ts';
 import { h, redraw, replace } from '../shared/dom.ts';
 import { icon } from '../shared/icons.ts';
 import { rove } from '../shared/roving.ts';
+import type { StreamSpeechState } from '../speak/stream_speech_model.ts';
 import type { FaceDriver } from '../stage/face_driver.ts';
 import type { Signal } from '../shared/signal.ts';
 import type { Studio } from '../shared/studio.ts';
@@ -16,6 +17,8 @@ export interface StepsParts {
   /** The example that shows most of what a face can do: whether it plays now, and what starts and pauses it. */
   example: { playing: Signal<boolean>; toggle: () => void };
   driver: Pick<FaceDriver, 'source'>;
+  /** What the open head says into a stream. */
+  streamSpeech: Signal<StreamSpeechState>;
 }
 
 /** Which of the four steps are done for the open head: it is there, has its first points, moves, has talked. */
@@ -29,7 +32,7 @@ export function doneSteps(model: Model | null, talked: boolean): [boolean, boole
  * What the studio is in one sentence, the four steps of a head with what is done of them, and the best example. It stands below the
  * heads or, where these are a tab, above the panel of the face, until all is done.
  */
-export function stepsBox({ studio, upload, example, driver }: StepsParts, wideSeat: HTMLElement, narrowSeat: HTMLElement): void {
+export function stepsBox({ studio, upload, example, driver, streamSpeech }: StepsParts, wideSeat: HTMLElement, narrowSeat: HTMLElement): void {
   const list = h('ol', { class: 'steps-list', 'aria-label': t('Four steps') });
   const play = h('button', { type: 'button', class: 'steps-play', on: { click: () => example.toggle() } });
   const box = h(
@@ -86,6 +89,11 @@ export function stepsBox({ studio, upload, example, driver }: StepsParts, wideSe
   driver.source.watch((source) => {
     const { value: model } = studio.selected;
     if (model && (source === 'speech' || source === 'clip' || source === 'microphone')) talked.add(model.id);
+    draw();
+  });
+  streamSpeech.watch(({ kind }) => {
+    const { value: model } = studio.selected;
+    if (model && kind === 'speaking') talked.add(model.id);
     draw();
   });
   seat();

@@ -91,7 +91,7 @@ export class Studio {
       if (!model || this.selected.value?.id !== open.id || working.has(open.id)) return;
       this.onChangedElsewhere(model);
       if (model.package?.parametrization !== open.package?.parametrization)
-        this.toasts.say(t('{name} was parametrized elsewhere.', { name: model.name }));
+        this.toasts.say(open.package ? t('{name} was parametrized elsewhere.', { name: model.name }) : t('{name} can move now.', { name: model.name }));
     }
   }
 
