@@ -6,10 +6,10 @@ import { calmDown, coarse } from './support/studio_page.ts';
 import { browser, server, useStudio } from './support/suite.ts';
 
 useStudio();
-async function open(path: string, options: { reducedMotion?: 'reduce'; noWebGl?: boolean; locale?: string } = {}): Promise<{ page: Page; errors: string[] }> {
+async function open(path: string, options: { reducedMotion?: 'reduce'; noWebGl?: boolean; locale?: string; sharp?: boolean } = {}): Promise<{ page: Page; errors: string[] }> {
   const context = await browser.newContext({
     viewport: { width: 390, height: 844 },
-    deviceScaleFactor: coarse,
+    deviceScaleFactor: options.sharp ? 1 : coarse,
     reducedMotion: options.reducedMotion ?? 'no-preference',
     locale: options.locale ?? 'en-US',
   });
@@ -70,6 +70,7 @@ test('View_UnknownStream_SaysSo_AndShowsItOnceItIsThere', async () => {
   const { page, errors } = await open('/view/later');
   await untilFace(page, 'error');
   expect((await shownFace(page)).message).toContain('There is no stream “later”');
+  await page.locator('.corner').waitFor({ state: 'hidden' }); // there is no connection to tell of
   const create = await fetch(`${server.url}/v1/streams`, {
     method: 'POST',
     headers: { 'Content-Type': 'application/json' },
@@ -100,6 +101,41 @@ test('View_LessMotionWished_WaitsForPlay_InPortugueseToo', async () => {
   expect((await page.getByRole('status').allInnerTexts()).join()).toMatch(/Conexão (boa|lenta|ruim)/);
   await page.getByRole('button', { name: 'Reproduzir' }).first().click();
   await untilFace(page, 'playing');
+  expect(errors).toEqual([]);
+  await page.context().close();
+});
+
+/** The contrast between what is drawn brightest and darkest in a picture: 1 to 21. */
+const contrastIn = (page: Page, png: Buffer): Promise<number> =>
+  page.evaluate(async (base64) => {
+    const image = await createImageBitmap(await (await fetch(`data:image/png;base64,${base64}`)).blob());
+    const context = new OffscreenCanvas(image.width, image.height).getContext('2d')!;
+    context.drawImage(image, 0, 0);
+    const { data } = context.getImageData(0, 0, image.width, image.height);
+    const linear = (value: number): number => (value <= 10 ? value / 3294 : ((value / 255 + 0.055) / 1.055) ** 2.4);
+    let [low, high] = [1, 0];
+    for (let i = 0; i < data.length; i += 4) {
+      const luminance = 0.2126 * linear(data[i]!) + 0.7152 * linear(data[i + 1]!) + 0.0722 * linear(data[i + 2]!);
+      low = Math.min(low, luminance);
+      high = Math.max(high, luminance);
+    }
+    return (high + 0.05) / (low + 0.05);
+  }, png.toString('base64'));
+
+test('View_ButtonsOverAnyHead_AreSeen', async () => {
+  const { page, errors } = await open('/view/demo', { sharp: true });
+  await untilFace(page, 'playing');
+  await page.evaluate(() => (document.querySelector<HTMLElement>('semblante-face')!.style.visibility = 'hidden'));
+  const captions = page.getByRole('button', { name: 'Captions' });
+  const { x, y, width, height } = (await captions.boundingBox())!;
+  const clip = { x: x + width / 4, y: y + height / 4, width: width / 2, height: height / 2 }; // within the round button: its picture
+  for (const colorScheme of ['light', 'dark'] as const) {
+    await page.emulateMedia({ colorScheme });
+    for (const behind of ['#f3c7b0', '#ffffff', '#8a5a3c', '#1a0f08']) {
+      await page.evaluate((colour) => (document.body.style.background = colour), behind);
+      expect(await contrastIn(page, await page.screenshot({ clip })), `${colorScheme}, over ${behind}`).toBeGreaterThanOrEqual(3);
+    }
+  }
   expect(errors).toEqual([]);
   await page.context().close();
 });

@@ -63,6 +63,7 @@ function troubleOf(status: number, absent: Trouble, name: string): FaceTrouble {
   return trouble(absentStatuses.has(status) ? absent : 'server', name);
 }
 
+/** What the page's developer was told already. */
 const hinted = new Set<string>();
 
 /** To the page's developer, once a server: the browser does not tell a page a refused origin from a server that is down. */
@@ -71,6 +72,14 @@ function hintOrigin(base: string): void {
   if (new URL(base, location.href).origin === origin || hinted.has(base)) return;
   hinted.add(base);
   console.warn(`semblante-face: ${base} cannot be reached, or refuses pages of another origin: semblante serve --allow-origin ${origin}`);
+}
+
+/** To the page's developer: which file a bundler has left behind, or that the page's Content-Security-Policy forbids WebAssembly. */
+function hintLibrary(fault: unknown): void {
+  const words = fault instanceof Error ? fault.message : String(fault);
+  if (hinted.has(words)) return;
+  hinted.add(words);
+  console.warn(`semblante-face: ${words}`);
 }
 
 /** The id of the model that a stream shows. Throws FaceTrouble. */
@@ -143,7 +152,9 @@ async function loadFaceOf(
     if (signal.aborted) throw error;
     if (error instanceof FaceError && error.code === 'http') throw troubleOf(error.status ?? 0, 'model-unready', '');
     if (error instanceof FaceError || error instanceof ProtocolError) throw trouble('damaged');
-    throw trouble('unreachable');
+    if (error instanceof TypeError || error instanceof DOMException) throw trouble('unreachable'); // what a fetch without an answer throws
+    hintLibrary(error);
+    throw trouble('library');
   }
 }
 

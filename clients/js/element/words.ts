@@ -6,6 +6,7 @@ export type Trouble =
   | 'model-unready'
   | 'private'
   | 'unreachable'
+  | 'library'
   | 'server'
   | 'damaged'
   | 'no-webgl'
@@ -51,6 +52,7 @@ export const faceWords: FaceWords = {
     'model-unready': () => 'There is no such face, or it is still being prepared.',
     private: () => 'This stream is private. Open it with the link of your invitation.',
     unreachable: () => 'The server cannot be reached. Trying again.',
+    library: () => 'This page could not load the part of it that draws faces. Trying again.',
     server: () => 'The server has a problem. Trying again.',
     damaged: () => 'This face could not be loaded: its files do not fit together.',
     'no-webgl': () => 'This browser has no WebGL 2, which drawing a face needs. Turn on hardware acceleration, or use another browser.',

@@ -207,6 +207,27 @@ test('faceOf_SeveralAtOnce_IsOneRequest_AndAnotherWhenTheFirstIsTakenOffThePage'
   expect(answers.length).toBe(2 * once);
 });
 
+test('faceOf_AFileThatTheBundlerLeftBehind_IsNotAServerThatCannotBeReached', async () => {
+  const warn = vi.spyOn(console, 'warn').mockImplementation(() => undefined);
+  let offline = false;
+  vi.stubGlobal('fetch', () => (offline ? Promise.reject(new TypeError('Failed to fetch')) : Promise.resolve(new Response('{}'))));
+  const leftBehind = (): Promise<never> => {
+    const missing = Promise.reject<never>(new Error('https://page.example/draco_decoder.wasm: status 404. The bundler has left this file behind'));
+    missing.catch(() => undefined);
+    return missing;
+  };
+  const load = (): Promise<unknown> =>
+    faceOf(source, 'ana', { draco: leftBehind(), runtime: leftBehind() }, { lod: 0 }, new Images(source, false), new AbortController().signal).catch((error: unknown) => error);
+  const trouble = (await load()) as FaceTrouble;
+  expect(trouble.code).toBe('library');
+  expect(isPassing(trouble.code)).toBe(true);
+  await load();
+  expect(warn.mock.calls).toEqual([[expect.stringContaining('draco_decoder.wasm: status 404')]]); // once
+  offline = true;
+  expect(((await load()) as FaceTrouble).code).toBe('unreachable');
+  warn.mockRestore();
+});
+
 afterEach(() => {
   vi.unstubAllGlobals();
 });
