@@ -113,16 +113,22 @@ def frame(faps: Optional[Mapping[int, float]] = None, *, viseme: Optional[Viseme
     `expression`: (number of 1..6, intensity 0..1), or two such pairs."""
     made = Frame()
     for number, value in (faps or {}).items():
-        if not 3 <= number < len(made.fap):
-            raise ValueError(f"FAP {number} is not one of 3 to {len(made.fap) - 1}")
+        if not isinstance(number, numbers.Integral) or not 3 <= number < len(made.fap):
+            raise ValueError(f"FAP {number!r} is not one of 3 to {len(made.fap) - 1}")
         made.fap[number] = value
     if viseme is not None:
         mixed: Any = (viseme, 0, 1.0) if isinstance(viseme, numbers.Integral) else viseme
+        if isinstance(mixed, str) or len(mixed) != 3:
+            raise ValueError(f"viseme {viseme!r} is neither a number nor (first, second, share of the first)")
         first, second, share = mixed
         made.viseme1, made.viseme2 = _one_of("viseme", first, 14), _one_of("viseme", second, 14)
         made.viseme_blend = _sixty_thirds(share)
     if expression is not None:
-        pairs: Any = [expression] if isinstance(expression[0], numbers.Integral) else list(expression)
+        pairs: Any = [] if isinstance(expression, (str, numbers.Number)) else list(expression)
+        if pairs and isinstance(pairs[0], numbers.Integral):
+            pairs = [pairs]
+        if not 1 <= len(pairs) <= 2 or any(isinstance(pair, str) or len(pair) != 2 for pair in pairs):
+            raise ValueError(f"expression {expression!r} is neither (number, intensity) nor two such pairs")
         for slot, (number, intensity) in enumerate(pairs, 1):
             setattr(made, f"expression{slot}", _one_of("expression", number, 6))
             setattr(made, f"intensity{slot}", _sixty_thirds(intensity))
@@ -130,8 +136,8 @@ def frame(faps: Optional[Mapping[int, float]] = None, *, viseme: Optional[Viseme
 
 
 def _one_of(what: str, number: int, most: int) -> int:
-    if not 0 <= number <= most:
-        raise ValueError(f"{what} {number} is not one of 0 to {most}")
+    if not isinstance(number, numbers.Integral) or not 0 <= number <= most:
+        raise ValueError(f"{what} {number!r} is not one of 0 to {most}")
     return number
 
 

@@ -177,6 +177,21 @@ class Heads(unittest.TestCase):
         with self.assertRaises(semblante.SemblanteError):
             golden_head().set_frame(semblante.frame({3: float("nan")}))
 
+    def test_frames_by_names_are_refused_in_words(self):
+        for wrong, words in ((lambda: semblante.frame({"open_jaw": 1}), "FAP 'open_jaw' is not one of 3 to 68"),
+                             (lambda: semblante.frame(viseme="aa"), "viseme 'aa' is neither"),
+                             (lambda: semblante.frame(viseme=(1, 2)), "viseme (1, 2) is neither"),
+                             (lambda: semblante.frame(expression="joy"), "expression 'joy' is neither"),
+                             (lambda: semblante.frame(expression=("joy", 1.0)), "expression ('joy', 1.0) is neither"),
+                             (lambda: semblante.frame(expression=1), "expression 1 is neither"),
+                             (lambda: semblante.frame(expression=[]), "expression [] is neither"),
+                             (lambda: semblante.frame(expression=[(1, 0.5)] * 3), "is neither")):
+            with self.assertRaises(ValueError) as caught:
+                wrong()
+            self.assertIn(words, str(caught.exception))
+        two = semblante.frame(expression=[(1, 0.5), (4, 1.0)])
+        self.assertEqual((two.expression1, two.expression2, two.intensity2), (1, 4, 63))
+
 
 class Documents(unittest.TestCase):
     def test_performances_give_the_golden_frames(self):
