@@ -1,5 +1,7 @@
 #include "server/app/sample_installer.h"
 
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <shared_mutex>
@@ -17,9 +19,13 @@ namespace semblante {
 namespace {
 
 std::string read_text(const std::filesystem::path& path) {
+  errno = 0;
   std::ifstream stream(path, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(path))
-    throw CommandFailure(CommandFailure::bad_input, "serve: --sample: " + path.string() + " cannot be read");
+  const bool is_folder = std::filesystem::is_directory(path);
+  if (!stream || is_folder)
+    throw CommandFailure(CommandFailure::bad_input,
+                         "serve: --sample: " + path.string() + " cannot be read: " +
+                             (is_folder ? "it is a folder; name the file of a model in it" : std::strerror(errno)));
   return {(std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>()};
 }
 

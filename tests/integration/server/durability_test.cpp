@@ -202,7 +202,7 @@ TEST(Start, SampleThatIsAFolder_IsNamed) {
         ServerProcess server(folder.path() / "data", {"--sample", folder.path().string()});
       },
       ::testing::ThrowsMessage<std::runtime_error>(
-          HasSubstr("--sample: " + folder.path().string() + " cannot be read")));
+          HasSubstr("--sample: " + folder.path().string() + " cannot be read: it is a folder")));
 }
 
 TEST(Limits, WorkerOverItsMemory_FailsTheJobWithTheReason) {
