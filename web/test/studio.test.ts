@@ -1,5 +1,6 @@
 import { expect, test } from 'vitest';
 import type { Api } from '../src/net/api.ts';
+import { ApiError } from '../src/net/problem.ts';
 import type { Model } from '../src/net/types.ts';
 import { Studio } from '../src/ui/shared/studio.ts';
 import type { Toasts } from '../src/ui/shared/toast.ts';
@@ -10,7 +11,7 @@ function head(id: string, updated = '2026-01-01T00:00:00.000Z'): Model {
 }
 
 /** A studio with these heads; `server` is what the server has, and may be changed. */
-async function studioWith(...heads: Model[]): Promise<{ studio: Studio; server: { heads: Model[]; pause?: Promise<void> }; said: string[] }> {
+async function studioWith(...heads: Model[]): Promise<{ studio: Studio; server: { heads: Model[]; pause?: Promise<void> }; said: string[]; shown: Set<string> }> {
   const server: { heads: Model[]; pause?: Promise<void> } = { heads };
   const said: string[] = [];
   const api = {
@@ -23,17 +24,28 @@ async function studioWith(...heads: Model[]): Promise<{ studio: Studio; server: 
     /** Its job has ended when it is answered. */
     setFrame: (id: string) => {
       const model = importingModel({ id });
-      return Promise.resolve({ model, job: { id: 'j', state: 'succeeded', progress: 1 } });
+      return Promise.resolve({ model, job: { id: 'j', state: 'done', progress: 1 } });
+    },
+    uploadModel: (file: File) => {
+      if (file.name.endsWith('.fbx')) return Promise.reject(new ApiError({ type: '/problems/unsupported-media-type', title: 'no', status: 415 }));
+      const model = importingModel({ id: file.name, name: file.name });
+      server.heads = [...server.heads, { ...model, state: 'ready' }];
+      return Promise.resolve({ model, job: { id: 'j', state: 'done', progress: 1 } });
     },
     deleteModel: (id: string) => {
       server.heads = server.heads.filter((one) => one.id !== id);
       return Promise.resolve();
     },
   } as unknown as Api;
-  const studio = new Studio(api, { say: (words: string) => said.push(words), problem: () => {} } as unknown as Toasts);
+  const shown = new Set<string>();
+  const problem = (what: string): (() => void) => {
+    shown.add(what);
+    return () => shown.delete(what);
+  };
+  const studio = new Studio(api, { say: (words: string) => said.push(words), problem } as unknown as Toasts);
   await studio.start();
   studio.select(heads[0]!.id);
-  return { studio, server, said };
+  return { studio, server, said, shown };
 }
 
 const ids = (studio: Studio): string[] => studio.models.value.map(({ id }) => id);
@@ -126,4 +138,14 @@ test('Import_WithErrors_OpensThem_ButWhoTurnsTheHeadStaysAtItsPoints', async () 
   await studio.setFrame(warned, { up: '+Y', front: '+Z' });
   expect(studio.selected.value?.state).toBe('ready');
   expect(studio.tab.value).toBe('points');
+});
+
+test('Upload_ThatIsAccepted_TakesAwayTheMessagesOfThoseThatWereNot', async () => {
+  const { studio, shown } = await studioWith(head('ana'));
+  const upload = (name: string): Promise<void> => studio.upload([{ path: name, file: new File(['x'], name) }]);
+  await upload('head.fbx');
+  await upload('other.fbx');
+  expect([...shown]).toEqual(['head.fbx was not accepted', 'other.fbx was not accepted']);
+  await upload('head.glb');
+  expect([...shown]).toEqual([]);
 });

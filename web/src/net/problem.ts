@@ -1,4 +1,4 @@
-import { anyFormat, formatList } from './model_formats.ts';
+import { anyFormat } from './model_formats.ts';
 import type { Problem } from './types.ts';
 import { problemTitle, serverWords, t } from '../words/words.ts';
 
@@ -78,7 +78,7 @@ export function adviceFor(problem: Problem): string | null {
   const slug = slugOf(problem);
   if (problem.status === 0) return t('Check that the server is running, then try again.');
   if (slug === 'malformed-model') return t('Export the head again as {anyFormat}.', { anyFormat });
-  if (slug === 'unsupported-media-type') return t('Use a file in one of these formats: {formatList}.', { formatList });
+  if (slug === 'unsupported-media-type') return t('Open it in the program that made it, or in Blender, and export it as GLB.');
   if (slug === 'unauthorized') return t('Reload the page and sign in again.');
   if (slug === 'forbidden') return t('Ask whoever runs the server for a token that allows it.');
   if (problem.status === 413 || slug === 'limit-exceeded')

@@ -19,7 +19,7 @@ export const portuguese = {
   'The server does not respond': 'O servidor não responde',
   'Check that the server is running, then try again.': 'Verifique se o servidor está ligado e tente de novo.',
   'Export the head again as {anyFormat}.': 'Exporte a cabeça de novo como {anyFormat}.',
-  'Use a file in one of these formats: {formatList}.': 'Use um arquivo em um destes formatos: {formatList}.',
+  'Open it in the program that made it, or in Blender, and export it as GLB.': 'Abra-o no programa em que foi feito, ou no Blender, e exporte-o como GLB.',
   'Reload the page and sign in again.': 'Recarregue a página e entre de novo.',
   'Ask whoever runs the server for a token that allows it.': 'Peça a quem cuida do servidor um token que permita isso.',
   'Reduce the mesh or its textures and upload it again.': 'Reduza a malha ou suas texturas e envie de novo.',

@@ -119,6 +119,9 @@ export class Studio {
     for (const file of uploads) await this.uploadOne(file);
   }
 
+  /** What takes away the messages of files that were not accepted, since the last one that was. */
+  private readonly refusals: (() => void)[] = [];
+
   private async uploadOne(file: File): Promise<void> {
     this.uploads += 1;
     const key = `upload-${this.uploads}`;
@@ -128,6 +131,7 @@ export class Studio {
     show(0);
     try {
       const { model, job } = await this.api.uploadModel(file, show, abort.signal);
+      for (const forget of this.refusals.splice(0)) forget(); // they would cover the head that came in their place
       this.replaceModel(model);
       this.setActivity(key, null);
       this.select(model.id);
@@ -138,7 +142,7 @@ export class Studio {
         this.toasts.problem(t('{name} could not be read', { name: file.name }), finished.problem);
     } catch (error) {
       if (!(error instanceof DOMException && error.name === 'AbortError'))
-        this.toasts.problem(t('{name} was not accepted', { name: file.name }), problemOf(error));
+        this.refusals.push(this.toasts.problem(t('{name} was not accepted', { name: file.name }), problemOf(error)));
     } finally {
       this.setActivity(key, null);
     }

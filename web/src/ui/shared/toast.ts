@@ -28,8 +28,8 @@ export class Toasts {
     setTimeout(() => toast.remove(), action ? 10_000 : 4000);
   }
 
-  /** `action`: what a button below the text does, in place of advice. */
-  problem(what: string, problem: Problem, action?: ToastAction): void {
+  /** `action`: what a button below the text does, in place of advice. Returns what takes the message away. */
+  problem(what: string, problem: Problem, action?: ToastAction): () => void {
     const advice = action ? null : adviceFor(problem);
     const detail = wordsOf(problem);
     const click = (): void => {
@@ -48,6 +48,7 @@ export class Toasts {
         action ? h('button', { type: 'button', class: 'small', on: { click } }, action.label) : null,
       ),
     );
+    return () => toast.remove();
   }
 
   private show(kind: 'note' | 'error', ...content: Node[]): HTMLElement {
