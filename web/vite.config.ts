@@ -6,7 +6,7 @@ import { serviceWorker } from './service_worker.ts';
 
 const here = (path: string): string => fileURLToPath(new URL(path, import.meta.url));
 const library = process.env['SEMBLANTE_WASM'] ?? here('../build/wasm');
-const sample = process.env['SEMBLANTE_SAMPLE'] ?? here('../build/sample');
+const sample = process.env['SEMBLANTE_SAMPLE_FOLDER'] ?? here('../build/sample');
 const draco = here('node_modules/three/examples/jsm/libs/draco/gltf/');
 
 /** Files that are fetched at run time under a fixed name: the client library in its parts, the Draco decoder, and the sample head. */
@@ -44,7 +44,7 @@ function runtimeAssets(): Plugin {
             file.startsWith(library)
               ? ': build the target semblante-runtime-wasm, or set SEMBLANTE_WASM to its folder'
               : file.startsWith(sample)
-                ? ': run build/bin/semblante-sample-head build/sample, or set SEMBLANTE_SAMPLE to its folder'
+                ? ': run build/bin/semblante-sample-head build/sample, or set SEMBLANTE_SAMPLE_FOLDER'
                 : '';
           this.error(`${fileName} is missing${advice}`);
         }

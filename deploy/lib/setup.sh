@@ -192,7 +192,7 @@ build_web() {
   stamp=$(stamp_of "$root/web" "$root/protocol/ts" "$root/clients/js" "$build/wasm" "$build/sample")
   if [ "$(cat "$root/web/dist/.stamp" 2>/dev/null)" != "$stamp" ]; then
     say "Building the studio"
-    (cd "$root/web" && SEMBLANTE_WASM="$build/wasm" SEMBLANTE_SAMPLE="$build/sample" npm run --silent build) || fail "the studio did not build"
+    (cd "$root/web" && SEMBLANTE_WASM="$build/wasm" SEMBLANTE_SAMPLE_FOLDER="$build/sample" npm run --silent build) || fail "the studio did not build"
     printf '%s' "$stamp" >"$root/web/dist/.stamp"
   fi
 }
