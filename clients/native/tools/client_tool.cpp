@@ -50,9 +50,15 @@ Status publish(const client::ServerAddress& server, const Arguments& arguments) 
   if (!bytes) {
     return bytes.error();
   }
+  const auto frames = decode_json_frames({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
+  if (!frames) {
+    Error error = in_file(arguments.frames_file, frames.error());
+    if (frames.error().where == "/frames")
+      error.message += "; frames of a performance or a take: semblante convert FILE --out frames.json";
+    return error;
+  }
   client::LiveStream stream = open_stream(server, arguments, StreamRole::publish);
-  const auto sent =
-      publish_frames(stream, {reinterpret_cast<const char*>(bytes->data()), bytes->size()}, patience(arguments));
+  const auto sent = publish_frames(stream, *frames, patience(arguments));
   stream.close();
   if (!sent) {
     return sent.error();

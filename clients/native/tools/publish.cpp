@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "clients/native/client/kernel_frame.h"
-#include "protocol/cpp/json_codec.h"
 #include "protocol/cpp/quantizers.h"
 
 namespace semblante::tools {
@@ -48,14 +47,13 @@ Status listen(LiveStream& stream, Clock::time_point until) {
 
 }  // namespace
 
-Result<std::size_t> publish_frames(LiveStream& stream, std::string_view json, std::chrono::milliseconds patience) {
-  const auto frames = decode_json_frames(json);
-  if (!frames) return frames.error();
+Result<std::size_t> publish_frames(LiveStream& stream, std::span<const TimedFrame> frames,
+                                   std::chrono::milliseconds patience) {
   if (auto fine = listen(stream, Clock::now() + patience, [&] { return stream.connected(); }); !fine) {
     return std::move(fine).error();
   }
   const Clock::time_point start = Clock::now();
-  for (const TimedFrame& frame : *frames) {
+  for (const TimedFrame& frame : frames) {
     if (auto fine = listen(stream, start + std::chrono::milliseconds(frame.time)); !fine) {
       return std::move(fine).error();
     }
@@ -70,7 +68,7 @@ Result<std::size_t> publish_frames(LiveStream& stream, std::string_view json, st
   if (auto fine = listen(stream, Clock::now() + std::chrono::milliseconds(200)); !fine) {
     return std::move(fine).error();
   }
-  return frames->size();
+  return frames.size();
 }
 
 }  // namespace semblante::tools

@@ -244,6 +244,19 @@ TEST(NativeClient, PublishingAPerformance_ReachesASubscriber) {
   EXPECT_NE(std::find(jaws.begin(), jaws.end(), 40.0F), jaws.end());
 }
 
+TEST(NativeClient, PublishingADocumentOfCues_SaysWhichFileAndWhatMakesFramesOfIt) {
+  const SampleServer server;
+  const std::filesystem::path cues = server.folder() / "cues.json";
+  ASSERT_TRUE(tools::write_file(cues, R"({"version":1,"cues":[]})"));
+  ChildProcess publisher({"/bin/sh", "-c",
+                          std::string(SEMBLANTE_CLIENT) + " " + server.url() + " --role publish --frames-file '" +
+                              cues.string() + "' 2>&1"});
+  const std::string said = publisher.read_line(patience);
+  EXPECT_NE(said.find(cues.string() + ": /frames: "), std::string::npos) << said;
+  EXPECT_NE(said.find("semblante convert"), std::string::npos) << said;
+  EXPECT_NE(publisher.wait(patience), 0);
+}
+
 TEST(NativeClient, ALevelOfDetail_AnimatesLikeTheFullMesh) {
   const SampleServer server;
   const auto full = client::load_face(server.http(), "sample");
