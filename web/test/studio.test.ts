@@ -27,7 +27,7 @@ async function studioWith(...heads: Model[]): Promise<{ studio: Studio; server: 
       return Promise.resolve({ model, job: { id: 'j', state: 'done', progress: 1 } });
     },
     uploadModel: (file: File) => {
-      if (file.name.endsWith('.fbx')) return Promise.reject(new ApiError({ type: '/problems/unsupported-media-type', title: 'no', status: 415 }));
+      if (file.name.endsWith('.fbx') || file.name === 'large.glb') return Promise.reject(new ApiError({ type: '/problems/unsupported-media-type', title: 'no', status: 415 }));
       const model = importingModel({ id: file.name, name: file.name });
       server.heads = [...server.heads, { ...model, state: 'ready' }];
       return Promise.resolve({ model, job: { id: 'j', state: 'done', progress: 1 } });
@@ -140,12 +140,14 @@ test('Import_WithErrors_OpensThem_ButWhoTurnsTheHeadStaysAtItsPoints', async () 
   expect(studio.tab.value).toBe('points');
 });
 
-test('Upload_ThatIsAccepted_TakesAwayTheMessagesOfThoseThatWereNot', async () => {
+test('Upload_ThatIsAccepted_TakesAwayTheMessagesOfFilesChosenBefore_ButNotOfThoseChosenWithIt', async () => {
   const { studio, shown } = await studioWith(head('ana'));
-  const upload = (name: string): Promise<void> => studio.upload([{ path: name, file: new File(['x'], name) }]);
+  const upload = (...names: string[]): Promise<void> => studio.upload(names.map((name) => ({ path: name, file: new File(['x'], name) })));
   await upload('head.fbx');
   await upload('other.fbx');
   expect([...shown]).toEqual(['head.fbx was not accepted', 'other.fbx was not accepted']);
-  await upload('head.glb');
+  await upload('large.glb', 'head.glb');
+  expect([...shown]).toEqual(['large.glb was not accepted']);
+  await upload('next.glb');
   expect([...shown]).toEqual([]);
 });

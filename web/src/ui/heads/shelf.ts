@@ -14,7 +14,6 @@ import { rove } from '../shared/roving.ts';
 import type { Activity, Studio } from '../shared/studio.ts';
 import { serverWords, t } from '../../words/words.ts';
 
-
 /** The list of heads: upload, choose, rename, delete. */
 export class Shelf {
   readonly element: HTMLElement;

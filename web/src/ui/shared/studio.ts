@@ -116,13 +116,16 @@ export class Studio {
       this.toasts.problem(t('The files could not be read'), problemOf(error));
       return;
     }
-    for (const file of uploads) await this.uploadOne(file);
+    const earlier = this.refusals.splice(0);
+    for (const file of uploads) await this.uploadOne(file, earlier);
+    this.refusals.push(...earlier);
   }
 
-  /** What takes away the messages of files that were not accepted, since the last one that was. */
+  /** What takes away the messages of files that were not accepted and that no later choice of files has replaced. */
   private readonly refusals: (() => void)[] = [];
 
-  private async uploadOne(file: File): Promise<void> {
+  /** `earlier`: of `refusals`, those of files that were chosen before. */
+  private async uploadOne(file: File, earlier: (() => void)[]): Promise<void> {
     this.uploads += 1;
     const key = `upload-${this.uploads}`;
     const abort = new AbortController();
@@ -131,7 +134,7 @@ export class Studio {
     show(0);
     try {
       const { model, job } = await this.api.uploadModel(file, show, abort.signal);
-      for (const forget of this.refusals.splice(0)) forget(); // they would cover the head that came in their place
+      for (const forget of earlier.splice(0)) forget(); // they would cover the head that came in their place
       this.replaceModel(model);
       this.setActivity(key, null);
       this.select(model.id);
