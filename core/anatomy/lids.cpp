@@ -47,6 +47,15 @@ struct Profile {
     }
   }
 
+  /// Places that no edge crosses have this distance.
+  void fill(double distance) {
+    for (std::size_t k = 0; k < weight.size(); ++k) {
+      if (weight[k] > 0.0) continue;
+      sum[k] = greatest[k] = distance;
+      weight[k] = 1.0;
+    }
+  }
+
   /// The distance at each place; places that no edge crosses are interpolated. All zero for what is no ball: a
   /// disc or a shell ends before the equator.
   [[nodiscard]] std::array<float, Lids::ball_places> radii() const {
@@ -76,6 +85,24 @@ struct Profile {
   }
 };
 
+void add_edges(const Surface& surface, SurfaceVertexId vertex, const glm::dvec3& pivot, const glm::dvec3& pole,
+               Profile& profile) {
+  for (const Surface::Step& step : surface.steps_from(vertex)) {
+    const glm::dvec3 from = surface.positions[vertex.value()] - pivot;
+    const glm::dvec3 to = surface.positions[step.to.value()] - pivot;
+    for (const double t : {0.0, 0.25, 0.5, 0.75}) profile.add(from + t * (to - from), pole);
+  }
+}
+
+std::array<float, Lids::ball_places> ball_of(const Surface& surface, const ModelledEye& eye, const glm::dvec3& pivot,
+                                             const glm::dvec3& pole) {
+  if (!eye.ball) return {};
+  Profile profile;
+  for (const SurfaceVertexId v : eye.held) add_edges(surface, v, pivot, pole, profile);
+  profile.fill(eye.ball->radius);
+  return profile.radii();
+}
+
 /// The outermost parts of the eye count: a cornea lies in front of an iris.
 std::array<float, Lids::ball_places> ball_of(const Surface& surface, std::span<const Part> parts, PartRole role,
                                              const glm::dvec3& pivot, const glm::dvec3& pole) {
@@ -83,13 +110,7 @@ std::array<float, Lids::ball_places> ball_of(const Surface& surface, std::span<c
   for (std::uint32_t p = 0; p < parts.size(); ++p) {
     if (parts[p].role != role) continue;
     Profile profile;
-    for (const SurfaceVertexId v : surface.members_of(PartId(p))) {
-      for (const Surface::Step& step : surface.steps_from(v)) {
-        const glm::dvec3 from = surface.positions[v.value()] - pivot;
-        const glm::dvec3 to = surface.positions[step.to.value()] - pivot;
-        for (const double t : {0.0, 0.25, 0.5, 0.75}) profile.add(from + t * (to - from), pole);
-      }
-    }
+    for (const SurfaceVertexId v : surface.members_of(PartId(p))) add_edges(surface, v, pivot, pole, profile);
     const auto radii = profile.radii();
     for (std::size_t k = 0; k < outermost.size(); ++k) outermost[k] = std::max(outermost[k], radii[k]);
   }
@@ -107,10 +128,11 @@ glm::dvec3 pole_of(const Rig& rig, std::size_t eye, const glm::dvec3& pivot) {
 
 }  // namespace
 
-std::optional<Lids> find_lids(const Surface& surface, const EyeEdges& edges, const Rig& rig, std::size_t eye) {
+std::optional<Lids> find_lids(const Surface& surface, const EyeEdges& edges, const Rig& rig, std::size_t eye,
+                              const ModelledEye* modelled) {
   const glm::dvec3 pivot(eye == 0 ? rig.left_eye_pivot : rig.right_eye_pivot);
-  const glm::dvec3& upper = edges.upper.middle.position;
-  const glm::dvec3& lower = edges.lower.middle.position;
+  const glm::dvec3& upper = modelled != nullptr ? modelled->upper : edges.upper.middle.position;
+  const glm::dvec3& lower = modelled != nullptr ? modelled->lower : edges.lower.middle.position;
   // Behind the axis a lid would slide the other way.
   if (upper.z <= pivot.z || lower.z <= pivot.z) return std::nullopt;
   const double slit = angle_of(upper, pivot) - angle_of(lower, pivot);
@@ -126,7 +148,9 @@ std::optional<Lids> find_lids(const Surface& surface, const EyeEdges& edges, con
   for (float& share : lids.gaze_share) share *= static_cast<float>(smooth_step(closed_slit, open_slit, slit));
   const glm::dvec3 pole = pole_of(rig, eye, pivot);
   lids.gaze = pole;
-  lids.ball = ball_of(surface, rig.parts, eye == 0 ? PartRole::left_eye : PartRole::right_eye, pivot, pole);
+  lids.ball = modelled != nullptr
+                  ? ball_of(surface, *modelled, pivot, pole)
+                  : ball_of(surface, rig.parts, eye == 0 ? PartRole::left_eye : PartRole::right_eye, pivot, pole);
   return lids;
 }
 

@@ -7,6 +7,7 @@
 #include <glm/vec3.hpp>
 
 #include "core/anatomy/lid_edge.h"
+#include "core/anatomy/modelled_eye.h"
 #include "core/geometry/surface.h"
 #include "core/types/feature_points.h"
 #include "core/types/rig.h"
@@ -18,7 +19,8 @@ inline constexpr double least_slit = 0.001;
 
 /// How the lids of one eye (0 left, 1 right) roll on the eyeball. Empty if their edges are not known or not before the
 /// pivot. An eye that is closed on the neutral face has next to no slit to close, and can open. Reads the rig's parts,
-/// points, FAPUs, pivots and irises.
-std::optional<Lids> find_lids(const Surface& surface, const EyeEdges& edges, const Rig& rig, std::size_t eye);
+/// points, FAPUs, pivots and irises. `modelled`: the eye, if it is in the skin.
+std::optional<Lids> find_lids(const Surface& surface, const EyeEdges& edges, const Rig& rig, std::size_t eye,
+                              const ModelledEye* modelled = nullptr);
 
 }  // namespace semblante

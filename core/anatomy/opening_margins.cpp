@@ -215,11 +215,25 @@ void add_fold_sites(const Surface& surface, const EyeEdges& eye, const LidEdge& 
   }
 }
 
-void add_lids(const Surface& surface, std::span<const SurfacePoint> points, std::vector<MarginSite>& sites) {
+void add_rim_sites(const Surface& surface, const EyeEdges& eye, const ModelledEye& modelled,
+                   std::vector<MarginSite>& sites) {
+  for (const ModelledEye::RimPlace& place : modelled.rim) {
+    const LidEdge& edge = place.is_upper ? eye.upper : eye.lower;
+    sites.push_back(site_between_corners(edge, place.vertex, surface.positions[place.vertex.value()], place.share));
+  }
+}
+
+void add_lids(const Surface& surface, std::span<const SurfacePoint> points, const ModelledEyes& modelled,
+              std::vector<MarginSite>& sites) {
   const std::array<std::optional<EyeEdges>, 2> eyes = {find_eye_edges(surface, points, 0),
                                                        find_eye_edges(surface, points, 1)};
-  for (const auto& eye : eyes) {
+  for (std::size_t k = 0; k < eyes.size(); ++k) {
+    const auto& eye = eyes[k];
     if (!eye) continue;
+    if (modelled[k]) {
+      add_rim_sites(surface, *eye, *modelled[k], sites);
+      continue;
+    }
     add_lid_sites(surface, eye->upper, eye->lower, true, sites);
     add_lid_sites(surface, eye->lower, eye->upper, false, sites);
   }
@@ -295,9 +309,10 @@ void add_lips(const Surface& surface, std::span<const SurfacePoint> points, std:
 
 }  // namespace
 
-std::vector<MarginSite> margin_sites(const Surface& surface, std::span<const SurfacePoint> points) {
+std::vector<MarginSite> margin_sites(const Surface& surface, std::span<const SurfacePoint> points,
+                                     const ModelledEyes& modelled) {
   std::vector<MarginSite> sites;
-  add_lids(surface, points, sites);
+  add_lids(surface, points, modelled, sites);
   add_lips(surface, points, sites);
   // A vertex with a point follows that point, unless it is on the line of both lips.
   std::vector<MarginSite> result;

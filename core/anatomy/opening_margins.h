@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/anatomy/modelled_eye.h"
 #include "core/anatomy/point_lookup.h"
 #include "core/geometry/surface.h"
 
@@ -27,6 +28,8 @@ struct MarginSite {
 ///   only in the middle, and upper and lower lid meet even if each moves only part of the way. At the outer corner an
 ///   upper lid that lies in front of the lower one overlaps it, so that the eye is closed as seen from the side too.
 ///   The shares of an eye that is closed on the neutral face are an arc, which it has when it opens.
+///   The edges of the lids of a modelled eye are where they are seen from the front, with the shares that
+///   `modelled_eye.h` gives.
 /// - Fold of an upper lid: an arc between the corners through its point (3.13, 3.14), with the shares of the edge below
 ///   it. A fold is a line; if the point were held alone, a brow near to it that rises would leave a notch there. A
 ///   vertex below the arc follows the edge too, by as much as it is nearer to it: else it would stay behind the skin
@@ -39,6 +42,7 @@ struct MarginSite {
 /// Edges of lids are shortest paths between the points that bound them, for lips see lip_edge.h; an edge with a missing
 /// point has no places. A lid on a part without corners (a shell behind the fold) ends at its vertices nearest to the
 /// corners. A fold far below its brow (4.3, 4.4) or on another part than its lid has no places.
-std::vector<MarginSite> margin_sites(const Surface& surface, std::span<const SurfacePoint> points);
+std::vector<MarginSite> margin_sites(const Surface& surface, std::span<const SurfacePoint> points,
+                                     const ModelledEyes& modelled = {});
 
 }  // namespace semblante

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/anatomy/modelled_eye.h"
 #include "core/doctor/openings.h"
 #include "core/doctor/words.h"
 
@@ -21,6 +22,12 @@ std::optional<double> closed_share(const Subject& head, const Opening& opening) 
   return std::min(1.0, lids->opening / (upper->y - lower->y));
 }
 
+/// Whether lids of one skin close over an eye that is modelled in it: nothing is to be done then.
+bool closes_over_eye(const Subject& head, const Opening& opening, const ModelledEyes& modelled) {
+  const std::size_t eye = &opening == &openings[1] ? 0 : 1;
+  return head.method == WeightMethod::smooth && !opening.is_mouth && head.rig.lids[eye] && modelled[eye];
+}
+
 }  // namespace
 
 std::vector<Finding> find_joined_rims(const Subject& head) {
@@ -28,7 +35,9 @@ std::vector<Finding> find_joined_rims(const Subject& head) {
   std::vector<SurfacePoint> points = surface_points(head.surface, head.rig.points);
   // With a point on the other rim the path does not cross the gap.
   std::erase_if(points, [&](const SurfacePoint& p) { return is_misplaced(head.misplaced, p.id); });
+  const ModelledEyes modelled = find_modelled_eyes(head.surface, head.model.triangles, head.rig.parts, points);
   for (const Opening& opening : openings) {
+    if (closes_over_eye(head, opening, modelled)) continue;
     const std::optional<RimCrossing> crossing = shortest_crossing(head.surface, opening, points);
     if (!crossing || !(crossing->share < joined_share)) continue;
     Finding finding;

@@ -11,6 +11,7 @@
 #include "core/anatomy/joined_rims.h"
 #include "core/anatomy/lids.h"
 #include "core/anatomy/lip_gaps.h"
+#include "core/anatomy/modelled_eye.h"
 #include "core/anatomy/neck.h"
 #include "core/anatomy/neck_folds.h"
 #include "core/anatomy/part_roles.h"
@@ -122,16 +123,16 @@ class BallFront {
 
 /// The vertices of lids: those that follow the points of one eye's lids, and skin that lies before its ball: a cheek or
 /// a brow that moves does not pass through the ball either. A vertex that follows the lids of both eyes is skin.
-void find_rolling_lids(const Model& model, const Surface& surface, const std::vector<SurfacePoint>& points, Rig& rig,
-                       std::vector<RigidMotion>& motion) {
+void find_rolling_lids(const Model& model, const Surface& surface, const std::vector<SurfacePoint>& points,
+                       const ModelledEyes& modelled, Rig& rig, std::vector<RigidMotion>& motion) {
   static const std::array<std::array<FeaturePointId, 2>, 2> lid_points = {
       {{*parse_feature_point("3.1"), *parse_feature_point("3.3")},
        {*parse_feature_point("3.2"), *parse_feature_point("3.4")}}};
   std::vector<RigidMotion> lids(motion.size(), RigidMotion::none);
   for (std::size_t eye = 0; eye < 2; ++eye) {
     const std::optional<EyeEdges> edges = find_eye_edges(surface, points, eye);
-    if (edges) rig.lids[eye] = find_lids(surface, *edges, rig, eye);
-    stop_joined_lids(model, surface, points, eye, rig);
+    if (edges) rig.lids[eye] = find_lids(surface, *edges, rig, eye, modelled[eye] ? &*modelled[eye] : nullptr);
+    if (!modelled[eye]) stop_joined_lids(model, surface, points, eye, rig);
     if (!rig.lids[eye]) continue;
     const BallFront front(rig, eye);
     for (std::size_t s = 0; s < motion.size(); ++s) {
@@ -154,7 +155,7 @@ void find_rolling_lids(const Model& model, const Surface& surface, const std::ve
 
 /// Data for the FAPs that move parts: the places and vertices of irises (FAPs 29, 30), lids and tongue (47).
 void find_moving_parts(const Model& model, const Surface& surface, const std::vector<SurfacePoint>& points,
-                       std::span<const MouthShare> mouth, bool rolls, Rig& rig) {
+                       std::span<const MouthShare> mouth, bool rolls, const ModelledEyes& modelled, Rig& rig) {
   std::vector<RigidMotion> motion(surface.vertex_count(), RigidMotion::none);
   for (std::size_t s = 0; s < motion.size(); ++s)
     motion[s] = rigid_motion_of(rig.parts[surface.part_of[s].value()].role);
@@ -176,7 +177,7 @@ void find_moving_parts(const Model& model, const Surface& surface, const std::ve
       motion[v.value()] = left ? RigidMotion::left_iris : RigidMotion::right_iris;
     }
   }
-  if (rolls) find_rolling_lids(model, surface, points, rig, motion);
+  if (rolls) find_rolling_lids(model, surface, points, modelled, rig, motion);
   if (const auto tongue = find_tongue(surface, rig.parts, points, mouth)) {
     rig.tongue = tongue->shape;
     for (std::size_t s = 0; s < motion.size(); ++s) {
@@ -222,6 +223,8 @@ Result<Rig> parametrize(const Model& model, const Surface& surface, const Featur
     weight_options.shapes = own.shapes;
     for (const Part& part : rig.parts) weight_options.fitted_parts.push_back(part.role == PartRole::skin);
   }
+  if (options.weights == WeightMethod::smooth)
+    weight_options.modelled_eyes = find_modelled_eyes(surface, model.triangles, rig.parts, on_surface);
   Result<SurfaceWeights> weighed = surface_weights(surface, on_surface, options.progress, weight_options);
   if (!weighed) return weighed.error();
   const WeightTable<double>* const weights = &weighed->rows;
@@ -244,6 +247,9 @@ Result<Rig> parametrize(const Model& model, const Surface& surface, const Featur
   if (are_shares(options.weights)) rig.lip_gaps = measure_lip_gaps(model, surface, rig);
   rig.left_eye_pivot = eye_pivot(surface, rig.parts, PartRole::left_eye, points);
   rig.right_eye_pivot = eye_pivot(surface, rig.parts, PartRole::right_eye, points);
+  const ModelledEyes& modelled = weight_options.modelled_eyes;
+  if (modelled[0] && modelled[0]->ball) rig.left_eye_pivot = glm::vec3(modelled[0]->ball->center);
+  if (modelled[1] && modelled[1]->ball) rig.right_eye_pivot = glm::vec3(modelled[1]->ball->center);
   if (!turn.empty()) {
     for (const SurfaceVertexId vertex : surface.surface_of) rig.turn_of_vertex.push_back(turn[vertex.value()]);
   }
@@ -252,7 +258,7 @@ Result<Rig> parametrize(const Model& model, const Surface& surface, const Featur
   warn_of_closed_eyes(rig.fapu, rig.warnings);
   warn_of_points(surface, on_surface, rig.warnings);
   warn_of_parts(rig.parts, points, rig.warnings);
-  find_moving_parts(model, surface, on_surface, mouth, are_shares(options.weights), rig);
+  find_moving_parts(model, surface, on_surface, mouth, are_shares(options.weights), modelled, rig);
   if (options.progress && !options.progress(1.0, "done")) {
     return Error{ErrorCode::cancelled, "", "stopped on request"};
   }

@@ -75,12 +75,24 @@ std::size_t member_of(const PointDistances& distances, SurfaceVertexId vertex) {
   return static_cast<std::size_t>(at - distances.members.begin());
 }
 
-/// The sockets of the eyes, and the mouth if the jaw's point is marked.
-std::vector<Cavity> cavities_with_target(const Surface& surface, PartId part, std::span<const SurfacePoint> points) {
+bool is_held(const ModelledEye& eye, SurfaceVertexId vertex) {
+  return std::binary_search(eye.held.begin(), eye.held.end(), vertex);
+}
+
+/// The sockets of the eyes that are not modelled in the skin, and the mouth if the jaw's point is marked.
+std::vector<Cavity> cavities_with_target(const Surface& surface, PartId part, std::span<const SurfacePoint> points,
+                                         const ModelledEyes& modelled) {
   std::vector<Cavity> cavities = find_cavities(surface, part, points);
   const bool has_jaw = std::any_of(points.begin(), points.end(),
                                    [](const SurfacePoint& p) { return p.id == parse_feature_point("2.1"); });
   if (!has_jaw) std::erase_if(cavities, [](const Cavity& c) { return c.is_mouth; });
+  for (const auto& eye : modelled) {
+    if (!eye) continue;
+    std::erase_if(cavities, [&](const Cavity& c) {
+      return !c.is_mouth &&
+             std::any_of(c.members.begin(), c.members.end(), [&](SurfaceVertexId v) { return is_held(*eye, v); });
+    });
+  }
   return cavities;
 }
 
@@ -91,7 +103,8 @@ double weight_unit(const PointDistances& distances, double eye_separation) {
 }
 
 WeightTable<double> smooth_part_weights(const Surface& surface, const PointDistances& distances, double eye_separation,
-                                        std::span<const MarginSite> margins, const WeightPrior& prior) {
+                                        std::span<const MarginSite> margins, const WeightPrior& prior,
+                                        const ModelledEyes& modelled) {
   std::vector<KrigingSite> of_points = point_sites(distances);
   for (const MarginSite& margin : margins) {
     if (!margin.replaces_points) continue;
@@ -117,7 +130,7 @@ WeightTable<double> smooth_part_weights(const Surface& surface, const PointDista
 
   // Rows of the cavities continue those of their rims.
   const PartId part = surface.part_of[distances.members.front().value()];
-  const std::vector<Cavity> cavities = cavities_with_target(surface, part, distances.points);
+  const std::vector<Cavity> cavities = cavities_with_target(surface, part, distances.points, modelled);
   constexpr std::uint32_t none = 0xFFFFFFFFU;
   struct CavityRow {
     std::uint32_t cavity = none;
@@ -162,7 +175,10 @@ WeightTable<double> smooth_part_weights(const Surface& surface, const PointDista
 
   WeightTable<double> table;
   for (std::size_t m = 0; m < distances.members.size(); ++m) {
-    if (const auto [cavity, row] = in_cavity[m]; cavity != none) {
+    if (std::any_of(modelled.begin(), modelled.end(),
+                    [&](const auto& eye) { return eye && is_held(*eye, distances.members[m]); })) {
+      table.end_row();
+    } else if (const auto [cavity, row] = in_cavity[m]; cavity != none) {
       const WeightTable<double>& rows = cavity_rows_of[cavity];
       for (std::size_t k = 0; k < rows.points_of(row).size(); ++k) {
         table.push(rows.points_of(row)[k], rows.weights_of(row)[k]);

@@ -2,6 +2,7 @@
 
 #include <span>
 
+#include "core/anatomy/modelled_eye.h"
 #include "core/anatomy/opening_margins.h"
 #include "core/geometry/surface.h"
 #include "core/parametrize/greatest_weights.h"
@@ -22,9 +23,10 @@ double weight_unit(const PointDistances& distances, double eye_separation);
 /// vertex share the one equally).
 ///
 /// `eye_separation`: as weight_unit takes it, whose length makes the weights independent of scale. `prior`: corrections
-/// learned from other heads.
+/// learned from other heads. `modelled`: eyes in the skin, whose held vertices follow nothing.
 WeightTable<double> smooth_part_weights(const Surface& surface, const PointDistances& distances, double eye_separation,
                                         std::span<const MarginSite> margins = {},
-                                        const WeightPrior& prior = trained_weight_prior());
+                                        const WeightPrior& prior = trained_weight_prior(),
+                                        const ModelledEyes& modelled = {});
 
 }  // namespace semblante

@@ -45,7 +45,7 @@ Result<SurfaceWeights> surface_weights(const Surface& surface, std::span<const S
   std::vector<WeightTable<double>> of_part(surface.part_count());
   const Surface& graph = options.distance_graph != nullptr ? *options.distance_graph : surface;
   std::vector<MarginSite> margins;
-  if (are_shares(options.method)) margins = margin_sites(surface, points);
+  if (are_shares(options.method)) margins = margin_sites(surface, points, options.modelled_eyes);
   SurfaceWeights result;
   const std::size_t sample_every =
       std::max(std::size_t{1}, surface.vertex_count() * options.shapes.size() / most_left_out);
@@ -62,7 +62,8 @@ Result<SurfaceWeights> surface_weights(const Surface& surface, std::span<const S
     const PointDistances distances = measure_distances(graph, part, points);
     if (are_shares(options.method)) {
       if (!go_on(share / 2, "weights")) return Error{ErrorCode::cancelled, "", "stopped on request"};
-      of_part[p] = smooth_part_weights(surface, distances, options.eye_separation, margins);
+      of_part[p] = smooth_part_weights(surface, distances, options.eye_separation, margins, trained_weight_prior(),
+                                       options.modelled_eyes);
       if (options.method == WeightMethod::fitted && options.fitted_parts[p]) {
         const std::size_t fitted_then = done + (share - share / 2);
         const double from = work == 0 ? 1.0 : static_cast<double>(done) / static_cast<double>(work);

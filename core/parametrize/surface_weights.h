@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "core/anatomy/modelled_eye.h"
 #include "core/anatomy/point_lookup.h"
 #include "core/geometry/surface.h"
 #include "core/parametrize/weight_method.h"
@@ -24,6 +25,7 @@ struct WeightOptions {
   /// PartId. The others keep smooth weights.
   std::span<const Example> shapes = {};
   std::vector<bool> fitted_parts = {};
+  ModelledEyes modelled_eyes = {};  ///< for `smooth`
 };
 
 struct SurfaceWeights {
