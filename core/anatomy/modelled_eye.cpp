@@ -1,12 +1,13 @@
 #include "core/anatomy/modelled_eye.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <string_view>
-#include <unordered_map>
 #include <utility>
 
 #include <glm/geometric.hpp>

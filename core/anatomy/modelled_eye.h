@@ -35,8 +35,8 @@ struct ModelledEye {
 using ModelledEyes = std::array<std::optional<ModelledEye>, 2>;
 
 /// The modelled eyes of a head: those that have no part of their own and lids of one skin (`are_joined`). An eye is
-/// empty if a point of its lids is missing or lies on it, or if no smooth patch fills most of the opening between the
-/// points: a membrane, or a mesh that is too coarse. `triangles` are of file vertices.
+/// empty if a point of its lids is missing or lies on it (a corner on the ball too), or if no smooth patch fills most
+/// of the opening between the points: a membrane, or a mesh that is too coarse. `triangles` are of file vertices.
 ModelledEyes find_modelled_eyes(const Surface& surface, std::span<const Triangle> triangles,
                                 std::span<const Part> parts, std::span<const SurfacePoint> points);
 

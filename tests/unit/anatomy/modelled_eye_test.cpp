@@ -8,6 +8,8 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "core/anatomy/opening_margins.h"
+
 namespace semblante {
 namespace {
 
@@ -98,6 +100,23 @@ TEST(ModelledEye, EdgesGoAsFarAsTheEyeIsOpen) {
     EXPECT_EQ(place.is_upper, p.y > 0.0) << p.x;
     EXPECT_NEAR(std::abs(p.y) - place.share * open, -edge_at(p.x), 0.06) << p.x;
     EXPECT_FALSE(std::binary_search(eye->held.begin(), eye->held.end(), place.vertex));
+  }
+}
+
+TEST(ModelledEye, ItsEdgesAreThePlacesOfMargins) {
+  const SculptedEye head(0.08);
+  const auto eye = head.left();
+  ASSERT_TRUE(eye.has_value());
+  const auto sites = margin_sites(head.surface, head.points, {eye, std::nullopt});
+  ASSERT_GE(sites.size(), 30U);
+  for (const MarginSite& site : sites) {
+    const auto place = std::find_if(eye->rim.begin(), eye->rim.end(),
+                                    [&](const ModelledEye::RimPlace& p) { return p.vertex == site.vertex; });
+    ASSERT_NE(place, eye->rim.end());
+    const auto middle = parse_feature_point(place->is_upper ? "3.1" : "3.3").value();
+    double share = 0.0;
+    for (const auto& [id, of_point] : site.shares) share += id == middle ? of_point : 0.0;
+    EXPECT_DOUBLE_EQ(share, place->share);
   }
 }
 

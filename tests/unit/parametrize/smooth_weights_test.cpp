@@ -56,6 +56,21 @@ TEST(SmoothWeights_Rows, ArePositiveAtMostEightAndAtMostOne) {
   EXPECT_TRUE(table.points_of(at(40, 40)).empty());
 }
 
+TEST(SmoothWeights_Rows, OfAModelledEyeAreEmptyAndTheOthersStay) {
+  const Model model = testing::make_grid(side, side);
+  const Surface surface = build_surface(model);
+  const auto held = surface.surface_of[at(15, 14)];
+  WeightOptions options{WeightMethod::smooth, 25.0, nullptr};
+  options.modelled_eyes[1] = ModelledEye{{held}, {}, {}, {}, std::nullopt};
+  const auto rows = surface_weights(surface, surface_points(surface, testing::points_at(model, crowd)), {}, options);
+  ASSERT_TRUE(rows);
+  const auto free = smooth(model, crowd, 25.0);
+  EXPECT_GT(sum_of(free, at(15, 14)), 0.9);
+  EXPECT_TRUE(rows->rows.points_of(held.value()).empty());
+  for (const std::uint32_t v : {at(14, 14), at(16, 14), at(15, 13)})
+    EXPECT_EQ(sum_of(rows->rows, surface.surface_of[v].value()), sum_of(free, v));
+}
+
 // Twelve points on a circle are equally far from its centre: only eight have a place, and the sum must not suffer.
 TEST(SmoothWeights_Rows, KeepTheirSumWhereMoreThanEightPointsAreEquallyFar) {
   const auto table = smooth(testing::make_grid(side, side),
