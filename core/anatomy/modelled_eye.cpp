@@ -43,6 +43,8 @@ constexpr double least_covered = 0.45;
 constexpr double least_grooved = 0.6;
 /// The greatest height of the eye that is seen, as a multiple of that at the point of the upper lid.
 constexpr double greatest_beside_point = 1.1;
+/// A patch that has not filled the eye after so many rings of triangles is a strip that winds.
+constexpr int most_rings = 400;
 /// Columns in which the edges of the lids are looked for.
 constexpr int rim_columns = 19;
 
@@ -132,7 +134,9 @@ class EyeSkin {
     if (!seed || !opening_.contains(faces_[*seed].middle)) return false;
     std::vector<std::size_t> patch = {*seed};
     of_eye_[*seed] = true;
-    for (std::size_t grown = 0; grown != patch.size();) {
+    int rings = 0;
+    for (std::size_t grown = 0; grown != patch.size(); ++rings) {
+      if (rings == most_rings) return false;
       grown = patch.size();
       ball_ = ball_of(patch);
       for (std::size_t k = 0; k < grown; ++k) {
