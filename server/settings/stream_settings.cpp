@@ -12,7 +12,9 @@ using nlohmann::json;
 
 constexpr std::size_t max_title_bytes = 200;
 constexpr std::size_t max_model_bytes = 64;
-constexpr int max_batch_interval = 1000;  ///< ms
+constexpr std::uint32_t max_batch_interval = 1000;  ///< ms
+
+bool is_share(double number) { return number >= 0.0 && number <= 1.0; }
 
 Status read_text(const json& value, std::size_t max_bytes, std::string& text) {
   if (!value.is_string()) return Error{ErrorCode::malformed, "", "must be a string"};
@@ -22,7 +24,7 @@ Status read_text(const json& value, std::size_t max_bytes, std::string& text) {
 
 Status read_viseme_share(const json& value, std::optional<double>& share) {
   const double number = value.is_number() ? value.get<double>() : -1.0;
-  if (!(number >= 0.0 && number <= 1.0)) return Error{ErrorCode::out_of_range, "", "must be a number from 0 to 1"};
+  if (!is_share(number)) return Error{ErrorCode::out_of_range, "", "must be a number from 0 to 1"};
   share = number;
   return Unit{};
 }
@@ -58,6 +60,13 @@ Status read_setting(std::string_view name, const json& value, StreamSettings& se
 }
 
 }  // namespace
+
+std::optional<std::string_view> invalid_setting(const StreamSettings& settings) {
+  if (settings.viseme_share && !is_share(*settings.viseme_share)) return "viseme_share";
+  if (settings.batch_interval > max_batch_interval) return "batch_interval";
+  if (!is_quantizer_scale(settings.quantizer_scale)) return "quantizer_scale";
+  return std::nullopt;
+}
 
 Result<StreamSettings> read_stream_settings(const json& object, std::string_view id) {
   StreamSettings settings;

@@ -35,6 +35,9 @@ void for_each_setting(Settings& settings, Visit&& visit) {
   visit(std::string_view("is_public"), settings.is_public);
 }
 
+/// The name of a setting whose value no request may give; nullopt: there is none.
+std::optional<std::string_view> invalid_setting(const StreamSettings& settings);
+
 /// The settings among the members of `object`; other members are ignored. Absent settings get their defaults, the title
 /// the stream's `id`. Errors: the first invalid setting, with a JSON pointer. The caller checks whether the model
 /// exists.

@@ -113,17 +113,20 @@ std::optional<fs::path> BlobStore::find(std::string_view sha256) const {
   return path;
 }
 
-fs::path BlobStore::whole(std::string_view sha256) const {
+fs::path BlobStore::whole(std::string_view sha256, std::optional<std::uint64_t> bytes) const {
   const std::string name(sha256);
   const auto path = find(sha256);
   if (!path) throw DamagedBlob("the stored bytes with the SHA-256 " + name + " are missing");
-  if (verified_->contains(name, file_stamp(*path))) return *path;
+  const DamagedBlob damaged("the stored bytes with the SHA-256 " + name + " are damaged");
+  const auto stamp = file_stamp(*path);
+  if (stamp && bytes && stamp->size != *bytes) throw damaged;
+  if (verified_->contains(name, stamp)) return *path;
   const Descriptor file(*path, O_RDONLY);
   const auto before = file.ok() ? file_stamp(file) : std::nullopt;
-  std::uint64_t bytes = 0;
-  const auto hash = before ? hash_of(file, bytes) : std::nullopt;
+  std::uint64_t read = 0;
+  const auto hash = before ? hash_of(file, read) : std::nullopt;
   if (!hash) throw_store_error(*path, errno);
-  if (*hash != sha256) throw DamagedBlob("the stored bytes with the SHA-256 " + name + " are damaged");
+  if (*hash != sha256) throw damaged;
   if (file_stamp(file) == before) verified_->add(name, *before);
   return *path;
 }

@@ -53,8 +53,9 @@ class BlobStore {
   /// The file of a blob, whatever its bytes are; nullopt when it does not exist. `sha256` may be any text.
   [[nodiscard]] std::optional<std::filesystem::path> find(std::string_view sha256) const;
   /// The file of an intact blob. The first call for a file hashes it; later ones only compare its inode, size and times
-  /// with those it had then. Throws DamagedBlob, and StoreError when the file cannot be read.
-  [[nodiscard]] std::filesystem::path whole(std::string_view sha256) const;
+  /// with those it had then. A file that has not as many `bytes` is damaged, and is not read: it may have grown without
+  /// end. Throws DamagedBlob, and StoreError when the file cannot be read.
+  [[nodiscard]] std::filesystem::path whole(std::string_view sha256, std::optional<std::uint64_t> bytes = {}) const;
   /// Deletes the file permanently; blobs that a user deleted or a job replaced do not pass through the trash.
   void remove(std::string_view sha256) const;
 

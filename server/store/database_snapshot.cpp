@@ -6,8 +6,12 @@
 #include "server/store/data_files.h"
 #include "server/store/descriptor.h"
 #include "server/store/sqlite.h"
+#include "server/store/sqlite_jobs.h"
+#include "server/store/sqlite_models.h"
 #include "server/store/sqlite_recordings.h"
 #include "server/store/sqlite_schema.h"
+#include "server/store/sqlite_sets.h"
+#include "server/store/sqlite_streams.h"
 #include "server/store/store_error.h"
 
 namespace semblante::store {
@@ -51,6 +55,26 @@ std::vector<std::string> check_references(Database& db) {
   return faults;
 }
 
+/// The first value of each kind of record that no statement of this program writes.
+std::vector<std::string> check_values(Database& db) {
+  std::vector<std::string> faults;
+  const auto reads = [&faults](const auto& read) {
+    try {
+      read();
+    } catch (const DamagedDatabase& fault) {
+      faults.emplace_back(fault.what());
+    }
+  };
+  reads([&] {
+    const auto models = list_models(db, "", INT64_MAX);
+    for (const auto& model : *models) static_cast<void>(read_points(db, model.id));
+  });
+  reads([&] { static_cast<void>(list_unfinished_jobs(db)); });
+  reads([&] { static_cast<void>(list_streams(db)); });
+  reads([&] { static_cast<void>(list_sets(db, "", INT64_MAX)); });
+  return faults;
+}
+
 std::map<std::string, ReferencedBlob> read_blobs(Database& db) {
   std::map<std::string, ReferencedBlob> blobs;
   {
@@ -59,7 +83,7 @@ std::map<std::string, ReferencedBlob> read_blobs(Database& db) {
                         "UNION ALL SELECT sha256, bytes, 'speech ' || speech FROM speech_files");
     while (statement.step()) {
       auto& blob = blobs[statement.text(0)];
-      blob.bytes = static_cast<std::uint64_t>(statement.integer(1));
+      blob.bytes = statement.whole(1);
       blob.users.insert(statement.text(2));
     }
   }
@@ -105,6 +129,7 @@ Result<DatabaseSnapshot> read_database(const fs::path& file, Reading how) {
     DatabaseSnapshot snapshot;
     if (how == Reading::everything) {
       snapshot.damage = check_pages(*db);
+      if (snapshot.damage.empty()) snapshot.damage = check_values(*db);
       snapshot.references = check_references(*db);
     }
     snapshot.blobs = read_blobs(*db);

@@ -1,8 +1,11 @@
 #include "server/store/sqlite.h"
 
 #include <cerrno>
+#include <cmath>
 #include <filesystem>
 #include <system_error>
+
+#include <nlohmann/json.hpp>
 
 #include "server/store/store_error.h"
 
@@ -105,6 +108,40 @@ std::string Statement::text(int column) const {
   const auto* bytes = sqlite3_column_text(statement_, column);
   if (bytes == nullptr) return {};
   return {reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(sqlite3_column_bytes(statement_, column))};
+}
+
+std::int64_t Statement::from_0_to(std::int64_t most, int column) const {
+  const auto value = integer(column);
+  if (value < 0 || value > most) fail_damaged(column, "a whole number from 0 to " + std::to_string(most));
+  return value;
+}
+
+double Statement::real(int column) const {
+  const double value = sqlite3_column_double(statement_, column);
+  if (!std::isfinite(value)) fail_damaged(column, "a finite number");
+  return value;
+}
+
+std::string Statement::json(int column) const {
+  auto json = text(column);
+  if (!json.empty() && !nlohmann::json::accept(json)) fail_damaged(column, "JSON");
+  return json;
+}
+
+std::vector<std::string> Statement::texts(int column) const {
+  try {
+    return nlohmann::json::parse(text(column)).get<std::vector<std::string>>();
+  } catch (const nlohmann::json::exception&) {
+    fail_damaged(column, "a list of texts");
+  }
+}
+
+void Statement::fail_damaged(int column, std::string_view wanted) const {
+  constexpr std::size_t shown = 40;  // bytes of a value
+  // The first column of each record is its id.
+  std::string message = "the database is damaged: `" + std::string(sqlite3_column_name(statement_, column)) + "` of `" +
+                        text(0).substr(0, shown) + "` is " + text(column).substr(0, shown) + ", not ";
+  throw DamagedDatabase(message.append(wanted));
 }
 
 void Statement::bind_one(std::string_view value) {

@@ -2,12 +2,16 @@
 
 // Private to store/: a thin, safe wrapper of SQLite's C interface.
 
+#include <algorithm>
+#include <concepts>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <sqlite3.h>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace semblante::store {
 
@@ -36,7 +40,12 @@ class Database {
   sqlite3* handle_ = nullptr;
 };
 
-/// A prepared statement: bind in order, then step row by row, read columns in order.
+/// Revisions, counts, bytes and times of records: one more of each still fits, and JSON has them exactly.
+inline constexpr std::int64_t largest_stored_number = (std::int64_t{1} << 53U) - 1;
+
+/// A prepared statement: bind in order, then step row by row, read columns in order. Columns of records are read by
+/// whole(), one_of(), real(), json() and texts(), which throw DamagedDatabase for values that no statement of this
+/// program writes: SQLite checks types and pages, not values.
 class Statement {
  public:
   Statement(Database& database, std::string_view sql);
@@ -58,11 +67,32 @@ class Statement {
   }
 
   [[nodiscard]] std::string text(int column) const;
+  /// Any number: of a count, a row or a setting of SQLite.
   [[nodiscard]] std::int64_t integer(int column) const { return sqlite3_column_int64(statement_, column); }
-  [[nodiscard]] double real(int column) const { return sqlite3_column_double(statement_, column); }
+  /// 0 to the largest number of the type, at most largest_stored_number.
+  template <std::integral Whole = std::uint64_t>
+  [[nodiscard]] Whole whole(int column) const {
+    constexpr auto most = std::min<std::uint64_t>(largest_stored_number, std::numeric_limits<Whole>::max());
+    return static_cast<Whole>(from_0_to(static_cast<std::int64_t>(most), column));
+  }
+  /// A value of an enumeration whose values are 0 to `last`.
+  template <class Enum>
+  [[nodiscard]] Enum one_of(Enum last, int column) const {
+    return static_cast<Enum>(from_0_to(static_cast<std::int64_t>(last), column));
+  }
+  /// A finite number.
+  [[nodiscard]] double real(int column) const;
+  /// A JSON text, or none.
+  [[nodiscard]] std::string json(int column) const;
+  /// A list of texts, as JSON.
+  [[nodiscard]] std::vector<std::string> texts(int column) const;
   [[nodiscard]] bool is_null(int column) const { return sqlite3_column_type(statement_, column) == SQLITE_NULL; }
 
  private:
+  [[nodiscard]] std::int64_t from_0_to(std::int64_t most, int column) const;
+  /// `wanted`: what the column should have had.
+  [[noreturn]] void fail_damaged(int column, std::string_view wanted) const;
+
   void bind_one(std::string_view value);
   void bind_one(const std::string& value) { bind_one(std::string_view(value)); }
   void bind_one(const char* value) { bind_one(std::string_view(value)); }

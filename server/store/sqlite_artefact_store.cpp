@@ -25,9 +25,9 @@ std::uint64_t SqliteArtefactStore::artefact_bytes() {
   const std::lock_guard lock(mutex_);
   Statement statement(
       db_,
-      "SELECT coalesce(sum(bytes), 0) FROM (SELECT sha256, bytes FROM artefacts UNION SELECT sha256, bytes FROM "
+      "SELECT CAST(total(bytes) AS INTEGER) FROM (SELECT sha256, bytes FROM artefacts UNION SELECT sha256, bytes FROM "
       "speech_files)");
-  return statement.step() ? static_cast<std::uint64_t>(statement.integer(0)) : 0;
+  return statement.step() ? statement.whole(0) : 0;
 }
 
 std::vector<std::string> SqliteArtefactStore::referenced_hashes() {

@@ -3,9 +3,7 @@
 namespace semblante::store {
 namespace {
 
-ArtefactRecord read_artefact(const Statement& row) {
-  return {row.text(0), row.text(1), static_cast<std::uint64_t>(row.integer(2)), row.text(3)};
-}
+ArtefactRecord read_artefact(const Statement& row) { return {row.text(0), row.text(1), row.whole(2), row.text(3)}; }
 
 std::optional<ArtefactRecord> read_first(Statement& statement) {
   if (!statement.step()) return std::nullopt;

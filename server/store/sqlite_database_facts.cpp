@@ -10,7 +10,7 @@ namespace {
 DatabaseIdentity read_identity(Database& db) {
   Statement statement(db, "SELECT id, starts FROM identity");
   if (!statement.step()) return {};
-  return {statement.text(0), static_cast<std::uint64_t>(statement.integer(1))};
+  return {statement.text(0), statement.whole(1)};
 }
 
 }  // namespace

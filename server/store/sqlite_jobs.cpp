@@ -1,5 +1,6 @@
 #include "server/store/sqlite_jobs.h"
 
+#include <algorithm>
 #include <string>
 
 #include "server/store/sqlite_artefacts.h"
@@ -16,15 +17,15 @@ JobRecord read_job(const Statement& row) {
   job.id = row.text(0);
   job.model = row.text(1);
   job.kind = row.text(2);
-  job.state = static_cast<JobState>(row.integer(3));
-  job.progress = row.real(4);
+  job.state = row.one_of(JobState::cancelled, 3);
+  job.progress = std::clamp(row.real(4), 0.0, 1.0);
   job.stage = row.text(5);
   job.created = row.text(6);
   job.updated = row.text(7);
-  job.problem = row.text(8);
-  job.attempts = static_cast<std::uint32_t>(row.integer(9));
-  job.request = row.text(10);
-  job.result = row.text(11);
+  job.problem = row.json(8);
+  job.attempts = row.whole<std::uint32_t>(9);
+  job.request = row.json(10);
+  job.result = row.json(11);
   job.origin = {row.text(12), row.text(13)};
   return job;
 }

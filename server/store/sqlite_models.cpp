@@ -19,28 +19,24 @@ ModelRecord read_model(const Statement& row) {
   ModelRecord model;
   model.id = row.text(0);
   model.name = row.text(1);
-  model.state = static_cast<ModelState>(row.integer(2));
-  model.problem = row.text(3);
+  model.state = row.one_of(ModelState::failed, 2);
+  model.problem = row.json(3);
   model.created = row.text(4);
   model.updated = row.text(5);
-  model.revision = static_cast<std::uint64_t>(row.integer(6));
+  model.revision = row.whole(6);
   model.file_name = row.text(7);
   model.format = row.text(8);
-  model.source_bytes = static_cast<std::uint64_t>(row.integer(9));
+  model.source_bytes = row.whole(9);
   model.source_sha256 = row.text(10);
-  model.vertices = static_cast<std::uint32_t>(row.integer(11));
-  model.triangles = static_cast<std::uint32_t>(row.integer(12));
+  model.vertices = row.whole<std::uint32_t>(11);
+  model.triangles = row.whole<std::uint32_t>(12);
   read_facts(row.text(13), model);
-  model.feature_points_revision = static_cast<std::uint64_t>(row.integer(14));
-  model.feature_point_count = static_cast<std::uint32_t>(row.integer(15));
+  model.feature_points_revision = row.whole(14);
+  model.feature_point_count = row.whole<std::uint32_t>(15);
   model.owner = row.text(22);
   if (!row.is_null(16))
-    model.package = PackageRecord{row.text(16),
-                                  row.text(17),
-                                  row.text(18),
-                                  row.text(19),
-                                  static_cast<int>(row.integer(20)),
-                                  read_levels(row.text(21))};
+    model.package = PackageRecord{row.text(16), row.text(17),       row.text(18),
+                                  row.text(19), row.whole<int>(20), read_levels(row.text(21))};
   return model;
 }
 
@@ -87,7 +83,7 @@ std::vector<FeaturePointRecord> read_points(Database& db, std::string_view model
   while (statement.step()) {
     FeaturePointRecord point;
     point.id = statement.text(0);
-    if (!statement.is_null(1)) point.vertex = static_cast<std::uint32_t>(statement.integer(1));
+    if (!statement.is_null(1)) point.vertex = statement.whole<std::uint32_t>(1);
     if (!statement.is_null(2)) point.position = {statement.real(2), statement.real(3), statement.real(4)};
     if (!statement.is_null(5)) point.proposal = read_proposal(statement.text(5));
     points.push_back(std::move(point));

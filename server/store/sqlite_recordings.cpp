@@ -10,24 +10,23 @@ constexpr const char* columns =
     "max_duration, owner, sound_packets FROM recordings ";
 
 RecordingRecord read_recording(const Statement& row) {
-  const auto number = [&row](int column) { return static_cast<std::uint64_t>(row.integer(column)); };
   RecordingRecord recording;
   recording.id = row.text(0);
   recording.stream = row.text(1);
   recording.name = row.text(2);
   recording.model = row.text(3);
   recording.created = row.text(4);
-  recording.state = static_cast<RecordingState>(row.integer(5));
+  recording.state = row.one_of(RecordingState::broken, 5);
   recording.ended = row.text(6);
-  recording.duration = number(7);
-  recording.frames = number(8);
-  recording.lost = number(9);
-  recording.bytes = number(10);
-  recording.epoch = number(11);
-  recording.media_time = number(12);
-  if (!row.is_null(13)) recording.max_duration = number(13);
+  recording.duration = row.whole(7);
+  recording.frames = row.whole(8);
+  recording.lost = row.whole(9);
+  recording.bytes = row.whole(10);
+  recording.epoch = row.whole(11);
+  recording.media_time = row.whole(12);
+  if (!row.is_null(13)) recording.max_duration = row.whole(13);
   recording.owner = row.text(14);
-  recording.sound_packets = row.is_null(15) ? std::nullopt : std::optional(number(15));
+  recording.sound_packets = row.is_null(15) ? std::nullopt : std::optional(row.whole(15));
   return recording;
 }
 

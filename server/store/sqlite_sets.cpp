@@ -9,8 +9,8 @@ constexpr const char* set_columns =
     "SELECT id, name, kind, revision, created, updated, displacements, source, owner FROM displacement_sets ";
 
 SetRecord read_set(const Statement& row) {
-  return {row.text(0), row.text(1), row.text(2), static_cast<std::uint64_t>(row.integer(3)), row.text(4), row.text(5),
-          row.text(6), row.text(7), row.text(8)};
+  return {row.text(0), row.text(1), row.text(2), row.whole(3), row.text(4),
+          row.text(5), row.json(6), row.json(7), row.text(8)};
 }
 
 }  // namespace
@@ -51,8 +51,7 @@ std::vector<WornSet> read_worn(Database& db, std::string_view model) {
                       "ORDER BY slot");
   statement.bind(model);
   while (statement.step())
-    list.push_back({statement.text(0), statement.text(1), statement.text(2),
-                    static_cast<std::uint64_t>(statement.integer(3)), statement.text(4)});
+    list.push_back({statement.text(0), statement.text(1), statement.text(2), statement.whole(3), statement.json(4)});
   return list;
 }
 
@@ -61,8 +60,7 @@ std::vector<WornSet> read_worn_names(Database& db, std::string_view model) {
   Statement statement(db, "SELECT slot, displacement_set, name, revision FROM worn_sets WHERE model = ? ORDER BY slot");
   statement.bind(model);
   while (statement.step())
-    list.push_back({statement.text(0), statement.text(1), statement.text(2),
-                    static_cast<std::uint64_t>(statement.integer(3)), ""});
+    list.push_back({statement.text(0), statement.text(1), statement.text(2), statement.whole(3), ""});
   return list;
 }
 

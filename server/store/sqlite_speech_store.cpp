@@ -14,14 +14,12 @@ constexpr const char* speech_columns =
     "SELECT id, created, request, text, voice, duration, warnings, owner FROM speeches ";
 
 SpeechRecord read_speech(Database& db, const Statement& row) {
-  SpeechRecord speech{row.text(0), row.text(1), row.text(2),
-                      row.text(3), row.text(4), static_cast<std::uint64_t>(row.integer(5))};
-  speech.warnings = nlohmann::json::parse(row.text(6)).get<std::vector<std::string>>();
+  SpeechRecord speech{row.text(0), row.text(1), row.json(2), row.text(3), row.text(4), row.whole(5)};
+  speech.warnings = row.texts(6);
   speech.owner = row.text(7);
   Statement files(db, "SELECT name, sha256, bytes, content_type FROM speech_files WHERE speech = ? ORDER BY name");
   files.bind(speech.id);
-  while (files.step())
-    speech.files.push_back({files.text(0), files.text(1), static_cast<std::uint64_t>(files.integer(2)), files.text(3)});
+  while (files.step()) speech.files.push_back({files.text(0), files.text(1), files.whole(2), files.text(3)});
   return speech;
 }
 

@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "server/store/store_error.h"
+
 namespace semblante::store {
 namespace {
 
@@ -15,9 +17,7 @@ std::string setting_columns() {
 
 void load(const Statement& row, int column, std::string& value) { value = row.text(column); }
 void load(const Statement& row, int column, double& value) { value = row.real(column); }
-void load(const Statement& row, int column, std::uint32_t& value) {
-  value = static_cast<std::uint32_t>(row.integer(column));
-}
+void load(const Statement& row, int column, std::uint32_t& value) { value = row.whole<std::uint32_t>(column); }
 void load(const Statement& row, int column, bool& value) { value = row.integer(column) != 0; }
 void load(const Statement& row, int column, std::optional<double>& value) {
   if (!row.is_null(column)) value = row.real(column);
@@ -43,6 +43,9 @@ std::vector<StreamRecord> list_streams(Database& db) {
     StreamRecord stream{row.text(0), row.text(1), {}, row.text(2)};
     int column = 3;
     settings::for_each_setting(stream.settings, [&](std::string_view, auto& value) { load(row, column++, value); });
+    if (const auto name = settings::invalid_setting(stream.settings))
+      throw DamagedDatabase("the database is damaged: no request has given the stream `" + stream.id + "` its " +
+                            std::string(*name));
     list.push_back(std::move(stream));
   }
   return list;

@@ -20,7 +20,7 @@ std::vector<TokenRecord> SqliteTokenStore::tokens() {
                 "SELECT id, name, scope, stream, model, created, expires, secret_hash FROM tokens ORDER BY number");
   while (row.step()) {
     TokenRecord token{row.text(0), row.text(1), row.text(2), row.text(3), row.text(4), row.text(5), {}, row.text(7)};
-    if (!row.is_null(6)) token.expires = row.integer(6);
+    if (!row.is_null(6)) token.expires = row.whole<std::int64_t>(6);
     list.push_back(std::move(token));
   }
   return list;

@@ -15,6 +15,7 @@
 #include "server/store/descriptor.h"
 #include "server/store/file_hash.h"
 #include "server/store/reconcile.h"
+#include "server/store/verified_blobs.h"
 #include "server/upkeep/data_lock.h"
 
 namespace semblante::upkeep {
@@ -90,11 +91,13 @@ class Checker {
     if (!store::is_real_file(path)) return std::nullopt;
     const store::Descriptor file(path, O_RDONLY);
     if (!file.ok() && errno == ENOENT) return std::nullopt;
+    const auto stamp = store::file_stamp(file);
+    // Not read: a file that has grown may have no end.
+    if (stamp && blob.bytes && stamp->size != *blob.bytes)
+      return "it has " + std::to_string(stamp->size) + " bytes, its record says " + std::to_string(*blob.bytes);
     const auto found = file.ok() ? store::hash_of(file, bytes) : std::nullopt;
     if (!found) return "it cannot be read: " + std::string(std::strerror(errno));
     if (*found != hash) return "its bytes have the SHA-256 " + *found;
-    if (blob.bytes && *blob.bytes != bytes)
-      return "it has " + std::to_string(bytes) + " bytes, its record says " + std::to_string(*blob.bytes);
     return "";
   }
 

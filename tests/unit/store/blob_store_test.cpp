@@ -104,6 +104,17 @@ TEST_F(BlobStoreTest, DamagedBlob_IsNotWhole_AndIsMendedByTheSameBytes) {
   }
 }
 
+TEST_F(BlobStoreTest, BlobOfAnotherSize_IsDamaged_AndIsNotRead) {
+  const auto blobs = BlobStore::open(folder_);
+  const auto hash = blobs.put("abc")->sha256;
+  const auto file = *blobs.find(hash);
+  EXPECT_EQ(blobs.whole(hash, 3), file);
+  EXPECT_THROW((void)blobs.whole(hash, 4), DamagedBlob);
+  constexpr std::uintmax_t of_an_hour = std::uintmax_t{1} << 42U;  // to hash it
+  std::filesystem::resize_file(file, of_an_hour);
+  EXPECT_THROW((void)blobs.whole(hash, 3), DamagedBlob);
+}
+
 TEST_F(BlobStoreTest, IntactBlob_IsKeptWhenItComesAgain) {
   const auto blobs = BlobStore::open(folder_);
   const auto hash = blobs.put("abc")->sha256;
