@@ -122,6 +122,7 @@ Api::Api(Context context) : context_(std::move(context)) {
   context_.idempotency_keys = std::make_shared<KeyLocks>();
   context_.stopping = std::make_shared<std::atomic<bool>>(false);
   context_.quota_turns = std::make_shared<KeyLocks>();
+  context_.stream_changes = std::make_shared<KeyLocks>();
   context_.voices = std::make_shared<ExportSlots>(context_.config.limits.max_voices);
   context_.known_voices = std::make_shared<KnownVoices>();
   context_.speakers = std::make_shared<Speakers>(context_.config.limits.max_voices);

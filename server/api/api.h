@@ -73,6 +73,7 @@ struct Context {
   std::shared_ptr<KeyLocks> idempotency_keys = nullptr;        ///< made by Api
   std::shared_ptr<std::atomic<bool>> stopping = nullptr;       ///< made by Api
   std::shared_ptr<KeyLocks> quota_turns = nullptr;             ///< by token; made by Api
+  std::shared_ptr<KeyLocks> stream_changes = nullptr;          ///< by stream; made by Api
   std::shared_ptr<ExportSlots> exports = nullptr;              ///< made by Api, unless it is given
   std::shared_ptr<ExportSlots> voices = nullptr;               ///< made by Api
   std::shared_ptr<KnownVoices> known_voices = nullptr;         ///< made by Api

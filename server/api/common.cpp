@@ -116,6 +116,12 @@ IdempotencyCheck check_idempotency(Context& context, const http::Request& reques
   return {std::nullopt, earlier->resource, std::move(held)};
 }
 
+KeyLocks::Held take_stream_turn(Context& context, const std::string& id) {
+  auto held = context.stream_changes->acquire(id, longest_key_wait);
+  if (!held) refuse_for_now("another request still creates or removes the stream " + id, 1);
+  return std::move(*held);
+}
+
 std::size_t page_size(const http::Request& request) {
   const auto text = request.query_value("limit");
   if (!text) return default_page;

@@ -60,6 +60,11 @@ struct IdempotencyCheck {
 };
 IdempotencyCheck check_idempotency(Context& context, const http::Request& request, std::string_view body_hash);
 
+/// Requests that create or remove a stream, or begin what ends with it, pass one at a time for each stream: it is in
+/// two places, the store and the hub. Two of them at once could leave it in one: gone after the next start, or a name
+/// that is taken by what nobody can remove. Taken after an Idempotency-Key is checked and before take_quota().
+KeyLocks::Held take_stream_turn(Context& context, const std::string& id);
+
 /// `?limit=` of a list: default 50, at most 200.
 std::size_t page_size(const http::Request& request);
 

@@ -114,13 +114,17 @@ answer::Recording represent(const RecordingStatus& recording) {
 }
 
 http::Response create_recording(Context& context, http::Request& request) {
-  auto header = context.hub.header(request.params.at("stream"));
-  if (!header) refuse("not-found", "there is no stream " + request.params.at("stream"));
+  const auto& stream = request.params.at("stream");
+  const auto header = [&] {
+    auto found = context.hub.header(stream);
+    if (!found) refuse("not-found", "there is no stream " + stream);
+    return std::move(*found);
+  };
+  recordings::RecordingStart start;
+  start.header = header();
   const auto body = body_object(request);
   refuse_unknown_members(body, body_members::create_recording);
-  recordings::RecordingStart start;
-  start.name = body.contains("name") ? checked_text(body["name"], max_name_bytes, "/name") : header->title;
-  start.header = std::move(*header);
+  if (body.contains("name")) start.name = checked_text(body["name"], max_name_bytes, "/name");
   if (body.contains("max_duration") && !body["max_duration"].is_null())
     start.max_duration = checked_duration(body["max_duration"]);
   auto check = check_idempotency(context, request, sha256_hex(request.body));
@@ -128,6 +132,10 @@ http::Response create_recording(Context& context, http::Request& request) {
     if (const auto earlier = context.recorder->find(*check.earlier)) return created(*earlier);
     refuse("conflict", "what this Idempotency-Key created has been removed");
   }
+  // The end of a stream ends the recordings that it has: none must begin meanwhile.
+  const auto change = take_stream_turn(context, stream);
+  start.header = header();
+  if (start.name.empty()) start.name = start.header.title;
   const auto turn = take_quota(context, request, {.bytes = 1, .recordings = 1});
   start.owner = origin_of(request).owner;
   start.has_room = recording_room(context, request);
@@ -189,7 +197,7 @@ http::Response play_recording(Context& context, http::Request& request) {
     if (!(options.from >= 0.0 && options.from <= static_cast<double>(recording->record.duration)))
       refuse("invalid-field", "must be a number of milliseconds from 0 to the recording's duration", "/from");
   }
-  const auto source = recordings::make_recording_source(*bytes_of(context, *recording), recording->record.name,
+  const auto source = recordings::make_recording_source(bytes_of(context, *recording), recording->record.name,
                                                         scaled_quantizers(info->settings.quantizer_scale));
   if (!source) {
     if (source.error().code == ErrorCode::empty) refuse("conflict", "there is no frame in the recording yet");

@@ -73,6 +73,7 @@ http::Response create_stream(Context& context, http::Request& request) {
   if (context.hub.list().size() >= context.config.limits.max_streams)
     refuse("limit-exceeded",
            "the server has reached its limit of " + std::to_string(context.config.limits.max_streams) + " streams");
+  const auto change = take_stream_turn(context, info.id);
   const auto turn = take_quota(context, request, {.streams = 1});
   if (check.record) check.record->resource = info.id;
   // Stored before it is opened, so that a stream that a client has seen survives a crash.
@@ -88,6 +89,7 @@ http::Response get_stream(Context& context, http::Request& request) {
 }
 
 http::Response delete_stream(Context& context, http::Request& request) {
+  const auto change = take_stream_turn(context, request.params.at("stream"));
   const auto info = info_of(context, request);
   if (info.source != "none") refuse("conflict", "the " + info.source + " stream is the server's own");
   context.pending.with_reserve([&] { return context.store.remove_stream(info.id); });

@@ -101,10 +101,14 @@ class RecordingSource : public streams::FrameSource {
 
 }  // namespace
 
-Result<std::shared_ptr<const streams::FrameSource>> make_recording_source(const ByteSource& bytes, std::string name,
+Result<std::shared_ptr<const streams::FrameSource>> make_recording_source(std::shared_ptr<const ByteSource> bytes,
+                                                                          std::string name,
                                                                           const QuantizerSteps& steps) {
-  std::vector<std::uint8_t> copy(bytes.size());
-  if (!bytes.read(0, copy)) return Error{ErrorCode::io, "", "the recording cannot be read"};
+  // The chunks, and not what follows the last one: a damaged file may have any size.
+  const auto found = RecordingReader::open(bytes, Check::heads);
+  if (!found) return found.error();
+  std::vector<std::uint8_t> copy(found->whole_bytes());
+  if (!bytes->read(0, copy)) return Error{ErrorCode::io, "", "the recording cannot be read"};
   auto reader = RecordingReader::open(bytes_in_memory(std::move(copy)), Check::everything);
   if (!reader) return reader.error();
   if (reader->frames() == 0) return Error{ErrorCode::empty, "", "the recording has no frame"};

@@ -1,6 +1,9 @@
 // Many connections send requests with one Idempotency-Key at the same moment to a real server, on every route that
 // takes the key.
 
+#include <algorithm>
+#include <array>
+#include <atomic>
 #include <barrier>
 #include <csignal>
 #include <set>
@@ -125,6 +128,60 @@ TEST_F(Idempotency, NamedStream_IsNoConflictForItsOwnKey_AndOneForOthers) {
     const bool first_won = statuses[keys[0]] == std::set{201};
     EXPECT_EQ(statuses[keys[first_won ? 0 : 1]], std::set{201});
     EXPECT_EQ(statuses[keys[first_won ? 1 : 0]], std::set{409});
+  }
+}
+
+/// Each answer 201 is followed by one 204 before the next 201, and what remains is what the next start finds.
+TEST_F(Idempotency, StreamsOfOneName_CreatedAndRemovedAtOnce_AreWhatTheAnswersSay) {
+  constexpr int names = 3;
+  std::array<std::atomic<int>, names> there{};
+  std::vector<std::thread> threads;
+  for (std::size_t i = 0; i < connections; ++i)
+    threads.emplace_back([&, i] {
+      for (int n = 0; n < 60; ++n) {
+        const int name = n % names;
+        const auto stream = "race-" + std::to_string(name);
+        if ((i + static_cast<std::size_t>(n / names)) % 2 == 0) {
+          if (request(port(), "POST", "/v1/streams", R"({"name":")" + stream + R"("})", json_type).status == 201)
+            ++there.at(static_cast<std::size_t>(name));
+        } else if (request(port(), "DELETE", "/v1/streams/" + stream).status == 204) {
+          --there.at(static_cast<std::size_t>(name));
+        }
+      }
+    });
+  for (auto& thread : threads) thread.join();
+  for (const bool restarted : {false, true}) {
+    if (restarted) {
+      EXPECT_EQ(server_->end(SIGKILL), -SIGKILL);
+      server_ = std::make_unique<ServerProcess>(folder_.path() / "data");
+    }
+    for (int name = 0; name < names; ++name) {
+      const auto status = request(port(), "GET", "/v1/streams/race-" + std::to_string(name)).status;
+      EXPECT_EQ(status == 200 ? 1 : 0, there.at(static_cast<std::size_t>(name)))
+          << name << (restarted ? ", restarted" : "");
+    }
+  }
+}
+
+TEST_F(Idempotency, RecordingsThatBeginWhileTheirStreamIsRemoved_End) {
+  for (int round = 0; round < 20; ++round) {
+    ASSERT_EQ(request(port(), "POST", "/v1/streams", R"({"name":"short"})", json_type).status, 201);
+    std::barrier together(4);
+    std::vector<std::thread> threads;
+    for (int i = 0; i < 4; ++i)
+      threads.emplace_back([&, i] {
+        together.arrive_and_wait();
+        if (i == 0)
+          request(port(), "DELETE", "/v1/streams/short");
+        else
+          request(port(), "POST", "/v1/streams/short/recordings", "{}", json_type);
+      });
+    for (auto& thread : threads) thread.join();
+    ASSERT_EQ(request(port(), "GET", "/v1/streams/short").status, 404);
+    EXPECT_TRUE(testing::eventually([&] {
+      const auto list = json_of(request(port(), "GET", "/v1/recordings?limit=200"))["recordings"];
+      return std::none_of(list.begin(), list.end(), [](const json& one) { return one["state"] == "recording"; });
+    })) << "one goes on for a stream that is gone";
   }
 }
 

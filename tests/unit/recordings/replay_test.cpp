@@ -48,7 +48,7 @@ class Replay : public ::testing::Test {
     return bytes;
   }
   static std::shared_ptr<const streams::FrameSource> source_of(const std::vector<RecordingFrame>& frames) {
-    auto source = make_recording_source(*bytes_in_memory(recording_of(frames)), "talk");
+    auto source = make_recording_source(bytes_in_memory(recording_of(frames)), "talk");
     EXPECT_TRUE(source);
     return *source;
   }
@@ -103,7 +103,7 @@ TEST_F(Replay, RecordedAgain_IsTheSameRecording) {
   ASSERT_TRUE(writer);
   for (const auto& batch : in_batches(listener_->frames, 5)) ASSERT_TRUE((*writer)->add(batch));
   ASSERT_TRUE((*writer)->flush());
-  auto source = make_recording_source(*bytes_in_memory(bytes_of(folder.file("again.srec"))), "again");
+  auto source = make_recording_source(bytes_in_memory(bytes_of(folder.file("again.srec"))), "again");
   ASSERT_TRUE(source);
   std::vector<RecordingFrame> again;
   const auto cursor = (*source)->frames_from(0.0);
@@ -173,7 +173,7 @@ TEST_F(Replay, OtherSteps_GoToTheNearestLevel) {
   Header fine = stream_header();
   for (std::size_t fap = first_low_level_fap; fap <= last_low_level_fap; ++fap)
     fine.quantizers.push_back(standard_quantizers()[fap] / 4.0);
-  auto source = make_recording_source(*bytes_in_memory(recording_of(frames, fine)), "fine");
+  auto source = make_recording_source(bytes_in_memory(recording_of(frames, fine)), "fine");
   ASSERT_TRUE(source);
   auto playing = player(*source);
   play_out(playing, 0.0);
@@ -184,9 +184,9 @@ TEST_F(Replay, OtherSteps_GoToTheNearestLevel) {
 }
 
 TEST_F(Replay, WithoutFramesOrDamaged_IsRefused) {
-  EXPECT_EQ(make_recording_source(*bytes_in_memory(encode_beginning(stream_header())), "").error().code,
+  EXPECT_EQ(make_recording_source(bytes_in_memory(encode_beginning(stream_header())), "").error().code,
             ErrorCode::empty);
-  EXPECT_EQ(make_recording_source(*bytes_in_memory({1, 2, 3}), "").error().code, ErrorCode::truncated);
+  EXPECT_EQ(make_recording_source(bytes_in_memory({1, 2, 3}), "").error().code, ErrorCode::truncated);
 }
 
 }  // namespace

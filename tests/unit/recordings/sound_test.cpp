@@ -202,7 +202,7 @@ TEST(RecordingSound, Played_IsHeardAtTheSameDistancesFromTheFrames) {
     const auto stream = std::make_shared<streams::Stream>(info, streams::StreamLimits{});
     const auto listener = std::make_shared<SoundListener>();
     stream->set_listener(listener);
-    const auto source = make_recording_source(*bytes_in_memory(bytes), "talk");
+    const auto source = make_recording_source(bytes_in_memory(bytes), "talk");
     ASSERT_TRUE(source);
     const auto ticket = stream->begin_playing(25.0, false);
     ASSERT_TRUE(ticket);

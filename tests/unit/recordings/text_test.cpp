@@ -150,7 +150,7 @@ TEST_F(RecordingText, Played_IsSaidAtTheSameDistancesFromTheFrames) {
   const auto stream = std::make_shared<streams::Stream>(info, streams::StreamLimits{});
   const auto listener = std::make_shared<TextListener>();
   stream->set_listener(listener);
-  const auto source = make_recording_source(*bytes_in_memory(bytes_of(path_)), "talk");
+  const auto source = make_recording_source(bytes_in_memory(bytes_of(path_)), "talk");
   ASSERT_TRUE(source);
   const auto ticket = stream->begin_playing(25.0, false);
   ASSERT_TRUE(ticket);

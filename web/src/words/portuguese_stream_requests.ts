@@ -24,6 +24,7 @@ export const portugueseStreamRequests: Sentences = {
   'the sound cannot be read: {fault}': 'o som não pode ser lido: {fault}',
   'the speech cannot be played: {fault}': 'a fala não pode ser tocada: {fault}',
   'the server stores at most {limit} speeches: delete one': 'o servidor guarda no máximo {limit} falas: apague uma',
+  'another request still creates or removes the stream {stream}': 'outro pedido ainda cria ou remove o fluxo {stream}',
   'the form has neither a part "timeline" nor a part "audio"': 'o formulário não tem a parte "timeline" nem a parte "audio"',
   'is of a timeline, which the form does not have': 'é de uma linha do tempo, que o formulário não tem',
   'a stored speech has it: give only one of the two': 'uma fala guardada já o tem: dê só um dos dois',
