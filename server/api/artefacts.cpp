@@ -8,7 +8,7 @@
 namespace semblante::api {
 http::Response file_response(Context& context, const http::Request& request, const store::ArtefactRecord& artefact,
                              std::string_view cache_control) {
-  const auto path = context.blobs.whole(artefact.sha256);
+  const auto path = context.blobs.whole(artefact.sha256, artefact.bytes);
   http::Response response;
   response.headers["Content-Type"] = artefact.content_type;
   response.headers["ETag"] = "\"sha256-" + artefact.sha256 + "\"";

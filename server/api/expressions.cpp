@@ -42,7 +42,7 @@ Rig rig_of(Context& context, const std::string& id) {
   if (!model) refuse("invalid-argument", "there is no model " + id, "?model");
   const auto artefact = context.store.artefact(model->id, "rig.json");
   if (!artefact) refuse("conflict", "the model is not parametrized: its units are not known", "?model");
-  const MappedFile file(context.blobs.whole(artefact->sha256));
+  const MappedFile file(context.blobs.whole(artefact->sha256, artefact->bytes));
   const auto document = read_rig(file.text());
   if (!document) refuse("internal", "rig.json cannot be read: " + document.error().message);
   Rig rig;

@@ -11,11 +11,10 @@ namespace semblante::api {
 
 std::string clip_of_model(Context& context, const store::ModelRecord& model, std::size_t level,
                           std::span<const TimedValues> frames, const ClipOptions& options, const std::string& pointer) {
-  const auto file_of = [&](std::string_view sha256) { return MappedFile(context.blobs.whole(sha256)); };
   const auto artefact = [&](const char* name) {
     const auto found = context.store.artefact(model.id, store::artefact_name(level, name));
     if (!found || !model.package) refuse("conflict", "the model is not parametrized: it has no face package", pointer);
-    return file_of(found->sha256);
+    return MappedFile(context.blobs.whole(found->sha256, found->bytes));
   };
   const auto mesh = artefact("mesh.drc");
   const auto weights = artefact("weights");

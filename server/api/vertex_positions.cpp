@@ -8,7 +8,7 @@ VertexPositions::VertexPositions(Context& context, const store::ModelRecord& mod
   for (std::size_t i = 0; i < 3; ++i) diagonal_ = std::hypot(diagonal_, model.box_max[i] - model.box_min[i]);
   const auto artefact = context.store.artefact(model.id, "positions");
   if (!artefact) return;
-  file_ = std::make_unique<MappedFile>(context.blobs.whole(artefact->sha256));
+  file_ = std::make_unique<MappedFile>(context.blobs.whole(artefact->sha256, artefact->bytes));
   // The mapping is page-aligned, so the array of float32 is aligned.
   xyz_ = {reinterpret_cast<const float*>(file_->bytes().data()), file_->bytes().size() / sizeof(float)};
 }

@@ -9,9 +9,10 @@
 
 namespace semblante::jobs {
 
-std::string path_of(const store::BlobStore& blobs, const std::string& sha256, const std::string& what) {
+std::string path_of(const store::BlobStore& blobs, const std::string& sha256, const std::string& what,
+                    std::optional<std::uint64_t> bytes) {
   try {
-    return blobs.whole(sha256).string();
+    return blobs.whole(sha256, bytes).string();
   } catch (const store::DamagedBlob& fault) {
     throw store::DamagedBlob(what + ": " + fault.what());
   }
@@ -24,8 +25,8 @@ Result<store::ModelRecord> model_of(const store::JobRecord& job, const JobSource
 }
 
 ModelSource source_of(const store::ModelRecord& model, const JobSources& sources) {
-  return ModelSource{path_of(sources.blobs, model.source_sha256, "the model"), model.file_name, model.frame,
-                     model.frame_wish};
+  return ModelSource{path_of(sources.blobs, model.source_sha256, "the model", model.source_bytes), model.file_name,
+                     model.frame, model.frame_wish};
 }
 
 MarkedSource marked_source_of(const store::ModelRecord& model, const JobSources& sources) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,8 +41,10 @@ struct JobSources {
   const store::BlobStore& blobs;
 };
 
-/// The path of a blob that a job needs. Throws store::DamagedBlob, "<what>: ...", and store::StoreError.
-std::string path_of(const store::BlobStore& blobs, const std::string& sha256, const std::string& what);
+/// The path of a blob that a job needs, of so many bytes if they are known. Throws store::DamagedBlob, "<what>: ...",
+/// and store::StoreError.
+std::string path_of(const store::BlobStore& blobs, const std::string& sha256, const std::string& what,
+                    std::optional<std::uint64_t> bytes = {});
 /// The model of a job. Error: missing.
 Result<store::ModelRecord> model_of(const store::JobRecord& job, const JobSources& sources);
 /// The file of a stored model. Throws as path_of().

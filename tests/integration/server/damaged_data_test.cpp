@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/integration/cli/program.h"
 #include "tests/integration/server/model_flow.h"
 
 namespace semblante::test {
@@ -126,6 +127,27 @@ TEST_F(DamagedData, DamagedWhileNoServerRan_IsFoundByTheNext) {
   flip_a_byte(blob(hash));
   start();
   expect_damaged(ask("GET", model + "/weights"), hash, "damaged");
+}
+
+/// Files that have grown to a size that nobody can read in a test's time, as a damaged file system may show them.
+TEST_F(DamagedData, WhatHasGrownWithoutEnd_IsNotRead) {
+  start();
+  const auto model = make_face();
+  const auto recording = make_recording();
+  const auto rig = hash_in(ask("GET", model + "/rig.json"));
+  constexpr std::uintmax_t size = std::uintmax_t{1} << 42U;
+  fs::resize_file(blob(rig), size);
+  fs::resize_file(data() / "recordings" / (recording + ".srec"), size);
+  expect_damaged(ask("GET", model + "/rig.json"), rig, "damaged");
+  expect_damaged(ask("GET", "/v1/recordings/" + recording + "/content?format=glb&model=" + model.substr(11)), rig,
+                 "damaged");
+  ASSERT_EQ(ask("POST", "/v1/streams", R"({"name":"again"})", json_type).status, 201);
+  EXPECT_EQ(ask("POST", "/v1/streams/again/plays", json{{"recording", recording}}.dump(), json_type).status, 202)
+      << "its chunks are whole";
+  const auto check = run_semblante({"check", "--data", data().string()});
+  EXPECT_EQ(check.exit_code, 1);
+  EXPECT_THAT(check.out, HasSubstr("it has " + std::to_string(size) + " bytes"));
+  EXPECT_EQ(server_->end(SIGTERM), 0);
 }
 
 TEST_F(DamagedData, Recording_IsSaidToBeDamagedOrGone) {
