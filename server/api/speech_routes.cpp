@@ -132,6 +132,11 @@ const store::ArtefactRecord& file_of(const SpeechRecord& speech, std::string_vie
   return *found;
 }
 
+std::filesystem::path whole_file(const Context& context, const SpeechRecord& speech, std::string_view name) {
+  const auto& file = file_of(speech, name);
+  return context.blobs.whole(file.sha256, file.bytes);
+}
+
 bool has_file(const SpeechRecord& speech, std::string_view name) {
   return std::any_of(speech.files.begin(), speech.files.end(),
                      [name](const store::ArtefactRecord& file) { return file.name == name; });
@@ -196,7 +201,7 @@ auto take_speaker(Context& context) {
 
 /// The sentences of a stored speech, from its timeline; none if nothing is known of its words.
 std::vector<SpeechText> texts_of(Context& context, const SpeechRecord& record, const PerformanceScript& script) {
-  const MappedFile file(context.blobs.whole(file_of(record, timeline).sha256));
+  const MappedFile file(whole_file(context, record, timeline));
   const auto read = read_voice_timeline(file.text(), TimelineFormat::semblante);
   if (!read) refuse("internal", "the timeline cannot be read: " + read.error().message);
   auto said = utterance_of(*read, record.text, {});
@@ -263,7 +268,12 @@ http::Response create_from_form(Context& context, http::Request& request) {
   if (!parts) refuse("malformed-request", "the form cannot be read: " + parts.error().message);
   const auto part = [&](std::string_view name) {
     const auto found = std::find_if(parts->begin(), parts->end(), [&](const auto& one) { return one.name == name; });
-    return found == parts->end() ? std::string_view() : found->content;
+    if (found == parts->end()) return std::string_view();
+    // A sound that was lost on its way must not become a speech without sound. A page's form in which no file was
+    // chosen sends an empty part without the name of a file.
+    if (found->content.empty() && !found->file_name.empty())
+      refuse("invalid-field", "the file is empty", "/" + std::string(name));
+    return found->content;
   };
   voice::TimelineRequest wish;
   wish.timeline = part("timeline");
@@ -400,12 +410,12 @@ http::Response speak_into_stream(Context& context, http::Request& request) {
     refuse("forbidden", "the token may not read this speech", "/speech");
   if (!speech) refuse("invalid-field", "there is no speech " + id, "/speech");
   auto place = take_speaker(context);
-  const MappedFile file(context.blobs.whole(file_of(*speech, performance).sha256));
+  const MappedFile file(whole_file(context, *speech, performance));
   const auto script = read_performance(file.text());
   if (!script) refuse("internal", "the speech cannot be read: " + script.error().message);
   Recording sound;
   if (has_file(*speech, audio)) {
-    const MappedFile audio_file(context.blobs.whole(file_of(*speech, audio).sha256));
+    const MappedFile audio_file(whole_file(context, *speech, audio));
     auto recording = read_wav(audio_file.text());
     if (!recording) refuse("internal", "the sound cannot be read: " + recording.error().message);
     sound = *std::move(recording);

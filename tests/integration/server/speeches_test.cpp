@@ -250,6 +250,13 @@ TEST_F(Speeches, TimelineOfAnotherVoice_BecomesAFaceOnItsSound_WithoutAVoice) {
   expect_problem(send({{"options", options}, {"timeline", R"({"visemes":["Q"],"vtimes":[0],"vdurations":[1]})"}}), 422,
                  "invalid-field", "/timeline/visemes/0");
   expect_problem(send({{"options", options}, {"timeline", headtts}, {"audio", "MP3"}}), 422, "invalid-field", "/audio");
+  expect_problem(send({{"options", options}, {"timeline", headtts}, {"audio", ""}}), 422, "invalid-field", "/audio");
+  expect_problem(send({{"options", options}, {"timeline", ""}, {"audio", sound}}), 422, "invalid-field", "/timeline");
+  const std::string none_chosen =
+      "--border\r\nContent-Disposition: form-data; name=\"audio\"; filename=\"\"\r\n\r\n\r\n";
+  const auto of_a_page =
+      ask("POST", "/v1/speeches", none_chosen + form_of({{"options", options}, {"timeline", headtts}}), form_type);
+  EXPECT_EQ(json_of(of_a_page)["links"]["audio"], nullptr) << of_a_page.body;
   expect_problem(send({{"options", R"({"language":"en","format":"smoke"})"}, {"timeline", headtts}}), 422,
                  "invalid-field", "/format");
   expect_problem(send({{"options", R"({"language":"en","text":"[joy]"})"}, {"timeline", headtts}}), 422,
