@@ -9,23 +9,6 @@
 namespace semblante {
 namespace {
 
-const char* with_article(JsonKind kind) {
-  switch (kind) {
-    case JsonKind::object:
-      return "an object";
-    case JsonKind::array:
-      return "an array";
-    case JsonKind::text:
-      return "a string";
-    case JsonKind::boolean:
-      return "true or false";
-    case JsonKind::null:
-      return "null";
-    default:
-      return "a number";
-  }
-}
-
 std::string text_of(const JsonView& number) {
   if (number.kind() == JsonKind::natural) return natural_text(number.natural());
   if (number.kind() == JsonKind::negative) return whole_text(number.negative());
@@ -50,7 +33,7 @@ bool JsonCursor::is_array() const { return node_.kind() == JsonKind::array; }
 bool JsonCursor::is_empty_array() const { return is_array() && node_.size() == 0; }
 
 bool JsonCursor::must_be(bool is, const char* what) const {
-  if (!is) fail(ErrorCode::malformed, std::string("must be ") + what + ", not " + with_article(node_.kind()));
+  if (!is) fail(ErrorCode::malformed, std::string("must be ") + what + ", not " + kind_name(node_.kind()));
   return is;
 }
 

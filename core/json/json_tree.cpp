@@ -9,15 +9,15 @@ const char* kind_name(JsonKind kind) {
     case JsonKind::null:
       return "null";
     case JsonKind::boolean:
-      return "boolean";
+      return "true or false";
     case JsonKind::text:
-      return "string";
+      return "a string";
     case JsonKind::array:
-      return "array";
+      return "an array";
     case JsonKind::object:
-      return "object";
+      return "an object";
     default:
-      return "number";
+      return "a number";
   }
 }
 

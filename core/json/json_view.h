@@ -17,7 +17,7 @@ enum class JsonKind : std::uint8_t {
   object,
 };
 
-/// "null", "boolean", "number", "string", "array", "object"
+/// "null", "true or false", "a number", "a string", "an array", "an object"
 const char* kind_name(JsonKind kind);
 
 class JsonView;

@@ -25,6 +25,11 @@ class JsonReader {
       return Error{ErrorCode::too_large, "", "has more than " + natural_text(most) + " bytes"};
     }
     if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;
+    // No JSON begins with two characters one of which is not ASCII, or with a byte order mark of UTF-16.
+    if (text_.starts_with("\xFF\xFE") || text_.starts_with("\xFE\xFF") ||
+        text_.substr(0, 2).find('\0') != std::string_view::npos) {
+      return Error{ErrorCode::malformed, "", "must be UTF-8, not UTF-16 or UTF-32"};
+    }
     while (!fault_ && step()) {
     }
     if (!fault_) {

@@ -114,6 +114,17 @@ TEST(ReadJson, ByteOrderMark_IsSkipped) {
   EXPECT_FALSE(read_json("\xEF\xBB{}"));
 }
 
+TEST(ReadJson, OtherEncodings_AreNamed) {
+  for (const std::string_view text :
+       {std::string_view("\xFF\xFE{\0}\0", 6), std::string_view("\xFE\xFF\0{\0}", 6), std::string_view("{\0}\0", 4),
+        std::string_view("\0{\0}", 4), std::string_view("{\0\0\0}\0\0\0", 8), std::string_view("\0\0\0{", 4)}) {
+    const auto refused = read_json(text);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, ErrorCode::malformed);
+    EXPECT_EQ(refused.error().message, "must be UTF-8, not UTF-16 or UTF-32");
+  }
+}
+
 TEST(ReadJson, WholeNumbersBeyond64Bits_AreReals) {
   const auto document = read_json("[18446744073709551615, 18446744073709551616, -9223372036854775808, 1e-999]");
   ASSERT_TRUE(document) << document.error().message;
@@ -152,7 +163,7 @@ TEST(ReadJson, ObjectIsWanted_NothingElseIsTaken) {
   EXPECT_TRUE(read_json_object("{}"));
   const auto array = read_json_object("[]");
   ASSERT_FALSE(array);
-  EXPECT_EQ(array.error().message, "must be an object, not array");
+  EXPECT_EQ(array.error().message, "must be an object, not an array");
 }
 
 TEST(ReadJson, Elements_AreHandedOverOneByOne) {

@@ -39,6 +39,7 @@ export const portugueseDetails: Sentences = {
   'the first chunk of a GLB must be JSON': 'o conteúdo de um GLB deve começar com JSON',
   'requires the extension {name}, which is not supported': 'precisa da extensão {name}, que não é suportada',
   'is not valid JSON (byte {byte})': 'não é JSON válido (byte {byte})',
+  'must be UTF-8, not UTF-16 or UTF-32': 'deve ser UTF-8, e não UTF-16 ou UTF-32',
   'is missing': 'falta',
   'refers to vertex {vertex}, but there are {count}': 'cita o vértice {vertex}, mas há {count}',
   'f has {corner} in place of a corner (v, v/vt, v//vn or v/vt/vn)': 'f tem {corner} no lugar de um canto (v, v/vt, v//vn ou v/vt/vn)',
