@@ -1,5 +1,7 @@
 #include <exception>
 #include <iostream>
+#include <string>
+#include <system_error>
 
 #include <CLI/CLI.hpp>
 
@@ -11,6 +13,15 @@
 
 namespace semblante {
 namespace {
+
+/// What ends a command and is no fault of its input.
+std::string words_of(const std::exception& fault) {
+  const auto* const system = dynamic_cast<const std::system_error*>(&fault);
+  if (system != nullptr && system->code() == std::errc::resource_unavailable_try_again)
+    return "the system gives no more threads (" + system->code().message() +
+           "): raise the limits of memory (ulimit -v) and of processes (ulimit -u)";
+  return std::string("internal error: ") + fault.what();
+}
 
 int run_command(int argc, char** argv) {
   CLI::App app("Semblante: a 3D head becomes a face that talks over a thin wire", "semblante");
@@ -55,7 +66,7 @@ int run_command(int argc, char** argv) {
     std::cerr << "semblante: " << failure.what() << "\n";
     return failure.exit_code();
   } catch (const std::exception& fault) {
-    std::cerr << "semblante: internal error: " << fault.what() << "\n";
+    std::cerr << "semblante: " << words_of(fault) << "\n";
     return CommandFailure::internal;
   }
 }

@@ -5,6 +5,7 @@
 
 #include <sys/resource.h>
 
+#include "server/cli/command_failure.h"
 #include "server/log/log.h"
 
 namespace semblante {
@@ -14,6 +15,8 @@ namespace {
 constexpr std::uint64_t reserve = 512;
 /// Left for files of bodies by any number of connections, if the process may open so many.
 constexpr std::uint64_t least_bodies = 256;
+/// The server itself has 15 files open; a request, a job and a voice at the same time need the most of the others.
+constexpr std::uint64_t fewest = 64;
 /// Bounds the memory when the system has no limit: about 8 KiB per connection.
 constexpr std::uint64_t most = 65'536;
 
@@ -38,6 +41,10 @@ OpenFiles open_files_to_serve(std::uint64_t wanted) {
     if (::setrlimit(RLIMIT_NOFILE, &files) != 0) ::getrlimit(RLIMIT_NOFILE, &files);
     may_open = files.rlim_cur;
   }
+  if (may_open < fewest)
+    throw CommandFailure(CommandFailure::bad_input, "serve: the process may have " + std::to_string(may_open) +
+                                                        " files open (ulimit -Hn), and a server needs " +
+                                                        std::to_string(fewest));
   const auto divided = divide_open_files(may_open, wanted);
   if (wanted > divided.connections)
     log::warning("--max-connections: the process may have " + std::to_string(may_open) +

@@ -14,6 +14,7 @@ struct OpenFiles {
 OpenFiles divide_open_files(std::uint64_t may_open, std::uint64_t wanted);
 
 /// Raises the limit of open files to its hard limit, and divides it. Warns if not all `wanted` connections are served.
+/// Throws CommandFailure if the limit is too low for a server.
 OpenFiles open_files_to_serve(std::uint64_t wanted);
 
 }  // namespace semblante

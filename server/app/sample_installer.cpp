@@ -19,13 +19,19 @@ namespace semblante {
 namespace {
 
 std::string read_text(const std::filesystem::path& path) {
+  std::error_code ignored;
+  const auto status = std::filesystem::status(path, ignored);
+  const bool is_folder = std::filesystem::is_directory(status);
+  // A device may have no end, and a FIFO waits for a writer.
+  const bool is_other = std::filesystem::is_other(status);
+  std::ifstream stream;
   errno = 0;
-  std::ifstream stream(path, std::ios::binary);
-  const bool is_folder = std::filesystem::is_directory(path);
-  if (!stream || is_folder)
-    throw CommandFailure(CommandFailure::bad_input,
-                         "serve: --sample: " + path.string() + " cannot be read: " +
-                             (is_folder ? "it is a folder; name the file of a model in it" : std::strerror(errno)));
+  if (!is_other) stream.open(path, std::ios::binary);
+  if (!stream.is_open() || is_folder)
+    throw CommandFailure(CommandFailure::bad_input, "serve: --sample: " + path.string() + " cannot be read: " +
+                                                        (is_folder  ? "it is a folder; name the file of a model in it"
+                                                         : is_other ? "it is no file"
+                                                                    : std::strerror(errno)));
   return {(std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>()};
 }
 

@@ -186,6 +186,7 @@ void run_serve(const ServeOptions& options) {
   ::umask(S_IRWXG | S_IRWXO);
   // A write to a closed pipe or socket, or beyond the limit of a file's size (ulimit -f), must return an error.
   for (const int number : {SIGPIPE, SIGXFSZ}) std::signal(number, SIG_IGN);
+  const auto open_files = open_files_to_serve(options.max_connections);
   std::error_code error;
   if (!options.web_root.empty() && !std::filesystem::is_directory(options.web_root, error))
     fail_input("--web-root: " + options.web_root.string() + " is no folder");
@@ -281,7 +282,6 @@ void run_serve(const ServeOptions& options) {
   net_config.proxies = listening.proxies;
   net_config.worker_threads = options.threads;
   net_config.upload_directory = blobs.temporary();
-  const auto open_files = open_files_to_serve(options.max_connections);
   net_config.limits.max_connections = open_files.connections;
   net_config.limits.max_files = open_files.bodies;
   net_config.limits.max_connections_per_address = static_cast<std::uint32_t>(options.max_connections_per_address);

@@ -268,12 +268,21 @@ void Server::run(const std::function<void()>& on_stopping) {
       run_guarded(io, who);
     });
   };
-  serve(state_->front, log::ThreadRank::handshakes, "thread of handshakes");
-  for (unsigned i = 0; i < state_->config.io_threads; ++i) {
-    serve(state_->live, log::ThreadRank::live, "thread of WebSockets");
-    serve(state_->io, log::ThreadRank::requests, "thread of requests");
+  const auto join = [&threads] {
+    for (auto& thread : threads) thread.join();
+  };
+  try {
+    serve(state_->front, log::ThreadRank::handshakes, "thread of handshakes");
+    for (unsigned i = 0; i < state_->config.io_threads; ++i) {
+      serve(state_->live, log::ThreadRank::live, "thread of WebSockets");
+      serve(state_->io, log::ThreadRank::requests, "thread of requests");
+    }
+  } catch (...) {  // the system gives no more threads
+    for (auto* io : {&state_->front, &state_->live, &state_->io}) io->stop();
+    join();
+    throw;
   }
-  for (auto& thread : threads) thread.join();
+  join();
   state_->workers.join();
 }
 

@@ -26,11 +26,17 @@ inline void run_guarded(boost::asio::io_context& io, std::string_view who) {
 class WorkerPool {
  public:
   explicit WorkerPool(unsigned threads) : io_(static_cast<int>(threads)), work_(io_.get_executor()) {
-    for (unsigned i = 0; i < threads; ++i)
-      threads_.emplace_back([this] {
-        log::set_thread_rank(log::ThreadRank::requests);
-        run_guarded(io_, "worker thread");
-      });
+    try {
+      for (unsigned i = 0; i < threads; ++i)
+        threads_.emplace_back([this] {
+          log::set_thread_rank(log::ThreadRank::requests);
+          run_guarded(io_, "worker thread");
+        });
+    } catch (...) {  // the system gives no more threads
+      stop();
+      join();
+      throw;
+    }
   }
   ~WorkerPool() {
     stop();

@@ -1,7 +1,9 @@
 // What was acknowledged survives kill -9; jobs that were cut off are taken up again; a hostile job takes down only its
 // worker.
 
+#include <array>
 #include <csignal>
+#include <cstdio>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -195,14 +197,43 @@ TEST(Start, PublicAddress_IsRefused) {
       ::testing::ThrowsMessage<std::runtime_error>(HasSubstr("can be reached from other machines")));
 }
 
-TEST(Start, SampleThatIsAFolder_IsNamed) {
+TEST(Start, SampleThatIsNoFile_IsNamed) {
   const TemporaryFolder folder;
-  EXPECT_THAT(
-      [&] {
-        ServerProcess server(folder.path() / "data", {"--sample", folder.path().string()});
-      },
-      ::testing::ThrowsMessage<std::runtime_error>(
-          HasSubstr("--sample: " + folder.path().string() + " cannot be read: it is a folder")));
+  const std::map<std::string, std::string> reasons = {
+      {folder.path().string(), "it is a folder"}, {"/dev/zero", "it is no file"}, {"/nowhere.glb", "No such file"}};
+  for (const auto& [sample, reason] : reasons) {
+    const std::vector<std::string> options = {"--sample", sample};
+    EXPECT_THAT(
+        [&] { ServerProcess server(folder.path() / "data", options); },
+        ::testing::ThrowsMessage<std::runtime_error>(HasSubstr("--sample: " + sample + " cannot be read: " + reason)));
+  }
+}
+
+TEST(Start, LimitsThatAreNoNumber_AreRefused) {
+  const TemporaryFolder folder;
+  for (const std::string option : {"--client-requests", "--client-failures", "--client-creations"})
+    EXPECT_THAT(
+        [&] {
+          ServerProcess server(folder.path() / "data", {option, "nan"});
+        },
+        ::testing::ThrowsMessage<std::runtime_error>(HasSubstr("nan is no number")));
+}
+
+/// A start under limits of the system, which `ulimit` sets.
+std::string start_under(const std::string& limits, const std::filesystem::path& data) {
+  const auto command = limits + "; exec timeout 20 " SEMBLANTE_BINARY_DIR "/bin/semblante serve --port 0 --data " +
+                       data.string() + " 2>&1";
+  std::string out;
+  FILE* const pipe = ::popen(command.c_str(), "r");
+  std::array<char, 256> piece{};
+  while (pipe != nullptr && std::fgets(piece.data(), piece.size(), pipe) != nullptr) out += piece.data();
+  EXPECT_NE(::pclose(pipe), 0) << "it starts";
+  return out;
+}
+
+TEST(Start, WithTooLittleOfTheSystem_SaysWhatIsMissing) {
+  const TemporaryFolder folder;
+  EXPECT_THAT(start_under("ulimit -n 63", folder.path() / "data"), HasSubstr("63 files open (ulimit -Hn)"));
 }
 
 TEST(Limits, WorkerOverItsMemory_FailsTheJobWithTheReason) {
