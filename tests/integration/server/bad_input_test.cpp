@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/integration/server/model_flow.h"
+#include "tests/integration/server/shared_server.h"
 
 namespace semblante::test {
 namespace {
@@ -17,25 +18,14 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-class BadInput : public ::testing::Test {
+class BadInput : public SharedServer {
  protected:
-  static void SetUpTestSuite() {
-    folder_ = new TemporaryFolder;
-    server_ = new ServerProcess(folder_->path() / "data");
-  }
-  static void TearDownTestSuite() {
-    delete server_;
-    delete folder_;
-  }
+  static void SetUpTestSuite() { start(); }
   void TearDown() override { EXPECT_EQ(request(port(), "GET", "/healthz").status, 200) << "the server goes on"; }
-  static int port() { return server_->port(); }
 
   static json put(const std::string& model, const std::string& text) {
     return json_of(request(port(), "PUT", "/v1/models/" + model + "/feature-points", text, json_type));
   }
-
-  static inline TemporaryFolder* folder_ = nullptr;
-  static inline ServerProcess* server_ = nullptr;
 };
 
 /// A zip with one stored file: local header, directory, end. The CRC is of the content given here.
@@ -264,9 +254,9 @@ TEST_F(BadInput, TrailerOf66000Bytes_IsRefused) {
 TEST_F(BadInput, MegabytesOfTrailers_AreRefusedAndNotKept) {
   std::string trailers = "0\r\n";
   while (trailers.size() < (std::size_t{48} << 20U)) trailers += "X: " + std::string(60'000, 'a') + "\r\n";
-  const auto before = peak_memory(server_->pid());
+  const auto before = peak_memory(server().pid());
   expect_slug(chunked(port(), trailers + "\r\n"), 431, "header-too-large");
-  EXPECT_LT(peak_memory(server_->pid()) - before, std::uint64_t{8} << 20U);
+  EXPECT_LT(peak_memory(server().pid()) - before, std::uint64_t{8} << 20U);
 }
 
 TEST_F(BadInput, ThousandsOfSmallTrailers_AreRefused) {

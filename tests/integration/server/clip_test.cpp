@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/integration/server/model_flow.h"
+#include "tests/integration/server/shared_server.h"
 #include "tests/integration/server/test_client.h"
 
 namespace semblante::test {
@@ -38,33 +39,29 @@ json json_of_glb(const std::string& glb) {
   return json::parse(glb.substr(20, number(12)));
 }
 
-class ClipRoute : public ::testing::Test {
+class ClipRoute : public SharedServer {
  protected:
   static void SetUpTestSuite() {
-    folder_ = new TemporaryFolder;
-    server_ = new ServerProcess(folder_->path() / "data");
-    model_ = new std::string(import_grid(server_->port(), 31));
+    start();
+    model_ = new std::string(import_grid(port(), 31));
   }
   static void TearDownTestSuite() {
-    EXPECT_EQ(server_->end(SIGTERM), 0);
+    SharedServer::TearDownTestSuite();
     delete model_;
-    delete server_;
-    delete folder_;
   }
 
   /// Asks for a clip on the suite's model, which the first call parametrizes with a smaller level of detail.
   static Reply clip(const std::string& body, const Fields& type = json_type, const std::string& query = "") {
     static const bool ready = parametrize();
     EXPECT_TRUE(ready);
-    return request(server_->port(), "POST", "/v1/models/" + *model_ + "/clip" + query, body, type);
+    return request(port(), "POST", "/v1/models/" + *model_ + "/clip" + query, body, type);
   }
 
   static bool parametrize() {
     const auto path = "/v1/models/" + *model_;
-    request(server_->port(), "PUT", path + "/feature-points", grid_points(), json_type);
-    const auto job =
-        json_of(request(server_->port(), "POST", path + "/parametrizations", R"({"lods":[400]})", json_type));
-    return wait_for_job(server_->port(), job.value("id", "")).value("state", "") == "done";
+    request(port(), "PUT", path + "/feature-points", grid_points(), json_type);
+    const auto job = json_of(request(port(), "POST", path + "/parametrizations", R"({"lods":[400]})", json_type));
+    return wait_for_job(port(), job.value("id", "")).value("state", "") == "done";
   }
 
   static void expect_refused(const Reply& reply, int status, const std::string& pointer) {
@@ -72,8 +69,6 @@ class ClipRoute : public ::testing::Test {
     EXPECT_EQ(json_of(reply).value("pointer", ""), pointer) << reply.body;
   }
 
-  static inline TemporaryFolder* folder_ = nullptr;
-  static inline ServerProcess* server_ = nullptr;
   static inline std::string* model_ = nullptr;
 };
 
@@ -148,9 +143,9 @@ TEST_F(ClipRoute, BadBodies_AreNamed) {
 
 TEST_F(ClipRoute, ModelWithoutAFace_IsRefused) {
   const auto body = jaw_performance().dump();
-  EXPECT_EQ(request(server_->port(), "POST", "/v1/models/absent/clip", body, json_type).status, 404);
-  const auto unready = import_grid(server_->port());
-  const auto reply = request(server_->port(), "POST", "/v1/models/" + unready + "/clip", body, json_type);
+  EXPECT_EQ(request(port(), "POST", "/v1/models/absent/clip", body, json_type).status, 404);
+  const auto unready = import_grid(port());
+  const auto reply = request(port(), "POST", "/v1/models/" + unready + "/clip", body, json_type);
   EXPECT_EQ(reply.status, 409);
   EXPECT_THAT(reply.body, HasSubstr("not parametrized"));
 }

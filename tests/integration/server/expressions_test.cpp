@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/integration/server/model_flow.h"
+#include "tests/integration/server/shared_server.h"
 
 namespace semblante::test {
 namespace {
@@ -105,18 +106,9 @@ std::string gltf_with_targets(const char* first = "smile", const char* second = 
   return document.dump();
 }
 
-class ExpressionRoutes : public ::testing::Test {
+class ExpressionRoutes : public SharedServer {
  protected:
-  static void SetUpTestSuite() {
-    folder_ = new TemporaryFolder;
-    server_ = new ServerProcess(folder_->path() / "data", {"--max-upload-bytes", "300000", "--max-expressions", "60"});
-  }
-  static void TearDownTestSuite() {
-    EXPECT_EQ(server_->end(SIGTERM), 0);
-    delete server_;
-    delete folder_;
-  }
-  static int port() { return server_->port(); }
+  static void SetUpTestSuite() { start({"--max-upload-bytes", "300000", "--max-expressions", "60"}); }
 
   static std::string model_with(const std::string& file, const std::string& name, const std::string& type) {
     const auto made = json_of(request(port(), "POST", "/v1/models?filename=" + name, file, {{"Content-Type", type}}));
@@ -158,9 +150,6 @@ class ExpressionRoutes : public ::testing::Test {
     EXPECT_EQ(json_of(reply).value("type", ""), "/problems/" + slug) << reply.body;
     EXPECT_EQ(json_of(reply).value("pointer", ""), pointer) << reply.body;
   }
-
-  static inline TemporaryFolder* folder_ = nullptr;
-  static inline ServerProcess* server_ = nullptr;
 };
 
 // 1 / (4 / 1024), -0.5 / (2 / 1024)

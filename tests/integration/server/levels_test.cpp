@@ -7,6 +7,7 @@
 #include "protocol/cpp/rig_document.h"
 #include "protocol/cpp/weights_format.h"
 #include "tests/integration/server/model_flow.h"
+#include "tests/integration/server/shared_server.h"
 #include "tests/integration/server/test_client.h"
 
 namespace semblante::test {
@@ -14,18 +15,9 @@ namespace {
 
 using nlohmann::json;
 
-class Levels : public ::testing::Test {
+class Levels : public SharedServer {
  protected:
-  static void SetUpTestSuite() {
-    folder_ = new TemporaryFolder;
-    server_ = new ServerProcess(folder_->path() / "data");
-  }
-  static void TearDownTestSuite() {
-    EXPECT_EQ(server_->end(SIGTERM), 0);
-    delete server_;
-    delete folder_;
-  }
-  static int port() { return server_->port(); }
+  static void SetUpTestSuite() { start(); }
 
   /// A grid with the levels asked for; its id.
   std::string grid_with(const std::string& options) {
@@ -47,9 +39,6 @@ class Levels : public ::testing::Test {
     EXPECT_EQ(reply.status, 400) << rest << ": " << reply.body;
     EXPECT_EQ(json_of(reply).value("pointer", ""), parameter) << reply.body;
   }
-
-  static inline TemporaryFolder* folder_ = nullptr;
-  static inline ServerProcess* server_ = nullptr;
 };
 
 TEST_F(Levels, PointBetweenVertices_IsKeptAsItsPosition_AndHasAVertexInEachPackage) {

@@ -9,6 +9,7 @@
 #include "core/propose/quick_set.h"
 #include "deploy/sample_head/write_sample_head.h"
 #include "tests/integration/server/model_flow.h"
+#include "tests/integration/server/shared_server.h"
 
 namespace semblante::test {
 namespace {
@@ -16,11 +17,10 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-class ProposalRoutes : public ::testing::Test {
+class ProposalRoutes : public SharedServer {
  protected:
   static void SetUpTestSuite() {
-    folder_ = new TemporaryFolder;
-    server_ = new ServerProcess(folder_->path() / "data");
+    start();
     const SampleHead head = make_sample_head();
     const auto glb = sample_head_glb(head);
     ASSERT_TRUE(glb);
@@ -28,9 +28,7 @@ class ProposalRoutes : public ::testing::Test {
     all_ = new json(json::parse(sample_head_feature_points_json(head)));
   }
   static void TearDownTestSuite() {
-    EXPECT_EQ(server_->end(SIGTERM), 0);
-    delete server_;
-    delete folder_;
+    SharedServer::TearDownTestSuite();
     delete glb_;
     delete all_;
   }
@@ -43,7 +41,6 @@ class ProposalRoutes : public ::testing::Test {
     ASSERT_EQ(wait_for_job(port(), made["job"]["id"]).value("state", ""), "done");
   }
 
-  static int port() { return server_->port(); }
   [[nodiscard]] std::string points_path() const { return "/v1/models/" + model_ + "/feature-points"; }
 
   template <class Names>
@@ -72,8 +69,6 @@ class ProposalRoutes : public ::testing::Test {
     EXPECT_EQ(json_of(reply).value("pointer", ""), pointer) << reply.body;
   }
 
-  static inline TemporaryFolder* folder_ = nullptr;
-  static inline ServerProcess* server_ = nullptr;
   static inline std::string* glb_ = nullptr;
   static inline json* all_ = nullptr;
   std::string model_;

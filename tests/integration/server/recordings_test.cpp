@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/integration/server/model_flow.h"
+#include "tests/integration/server/shared_server.h"
 
 namespace semblante::test {
 namespace {
@@ -14,18 +15,9 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-class Recordings : public ::testing::Test {
+class Recordings : public SharedServer {
  protected:
-  static void SetUpTestSuite() {
-    folder_ = new TemporaryFolder;
-    server_ = new ServerProcess(folder_->path() / "data", {"--max-recordings", "60"});
-  }
-  static void TearDownTestSuite() {
-    EXPECT_EQ(server_->end(SIGTERM), 0);
-    delete server_;
-    delete folder_;
-  }
-  static int port() { return server_->port(); }
+  static void SetUpTestSuite() { start({"--max-recordings", "60"}); }
   static Reply get(const std::string& target) { return request(port(), "GET", target); }
   static Reply post(const std::string& target, const json& body = json::object()) {
     return request(port(), "POST", target, body.dump(), json_type);
@@ -75,9 +67,6 @@ class Recordings : public ::testing::Test {
     EXPECT_TRUE(testing::eventually([&] { return json_of(get("/v1/recordings/" + recording))["state"] == state; }))
         << "not " << state;
   }
-
-  static inline TemporaryFolder* folder_ = nullptr;
-  static inline ServerProcess* server_ = nullptr;
 };
 
 TEST_F(Recordings, Facts_AreSaid) {

@@ -10,6 +10,7 @@
 
 #include "protocol/hash/sha256.h"
 #include "tests/integration/server/model_flow.h"
+#include "tests/integration/server/shared_server.h"
 
 namespace semblante::test {
 namespace {
@@ -18,19 +19,12 @@ using nlohmann::json;
 using ::testing::HasSubstr;
 
 /// One server for all tests of this file: each makes its own models.
-class Routes : public ::testing::Test {
+class Routes : public SharedServer {
  protected:
   static void SetUpTestSuite() {
-    folder_ = new TemporaryFolder;
-    server_ = new ServerProcess(folder_->path() / "data", {"--demo", "--max-upload-bytes", "300000", "--voice-program",
-                                                           SEMBLANTE_SOURCE_DIR "/server/voice/examples/beeps.py"});
+    start({"--demo", "--max-upload-bytes", "300000", "--voice-program",
+           SEMBLANTE_SOURCE_DIR "/server/voice/examples/beeps.py"});
   }
-  static void TearDownTestSuite() {
-    EXPECT_EQ(server_->end(SIGTERM), 0) << "a server that is told to stop ends well";
-    delete server_;
-    delete folder_;
-  }
-  static int port() { return server_->port(); }
 
   static void expect_problem(const Reply& reply, int status, const std::string& slug, const std::string& pointer = {}) {
     EXPECT_EQ(reply.status, status) << reply.body;
@@ -44,9 +38,6 @@ class Routes : public ::testing::Test {
     EXPECT_EQ(request(port(), "GET", problem.value("type", "/")).status, 200) << "the type can be looked up";
     EXPECT_EQ(request(port(), "GET", "/healthz").status, 200) << "the server goes on";
   }
-
-  static inline TemporaryFolder* folder_ = nullptr;
-  static inline ServerProcess* server_ = nullptr;
 };
 
 void wait_for_frames(int port, const std::string& recording) {

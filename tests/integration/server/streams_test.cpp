@@ -11,6 +11,7 @@
 #include "protocol/cpp/frame_codec.h"
 #include "protocol/cpp/quantizers.h"
 #include "tests/integration/server/model_flow.h"
+#include "tests/integration/server/shared_server.h"
 #include "tests/support/frame_encoder.h"
 
 namespace semblante::test {
@@ -19,17 +20,9 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-class Streams : public ::testing::Test {
+class Streams : public SharedServer {
  protected:
-  static void SetUpTestSuite() {
-    folder_ = new TemporaryFolder;
-    server_ = new ServerProcess(folder_->path() / "data", {"--demo"});
-  }
-  static void TearDownTestSuite() {
-    delete server_;
-    delete folder_;
-  }
-  static int port() { return server_->port(); }
+  static void SetUpTestSuite() { start({"--demo"}); }
   static std::string create(const std::string& name) {
     request(port(), "POST", "/v1/streams", R"({"name":")" + name + R"(","batch_interval":0})",
             {{"Content-Type", "application/json"}});
@@ -47,9 +40,6 @@ class Streams : public ::testing::Test {
         request(port(), "POST", stream + "/frames", R"({"frames":[{"faps":{"3":)" + std::to_string(value) + "}}]}");
     EXPECT_EQ(reply.status, 202) << reply.body;
   }
-
-  static inline TemporaryFolder* folder_ = nullptr;
-  static inline ServerProcess* server_ = nullptr;
 };
 
 TEST_F(Streams, Subprotocol_IsEchoedOnlyIfOffered) {
@@ -532,7 +522,7 @@ TEST_F(Streams, WhoDoesNotRead_CostsNobodyAFrame_TakesBoundedMemory_AndIsClosed)
     slow.push_back(std::make_unique<WebSocket>(port(), stream, "", Fields{}, 4096));
     slow.back()->send_text(hello("subscribe"));
   }
-  const auto memory = resident_kib(server_->pid());
+  const auto memory = resident_kib(server().pid());
   WebSocket quick(port(), stream, "");
   quick.send_text(hello("subscribe"));
   next(quick);
@@ -568,7 +558,7 @@ TEST_F(Streams, WhoDoesNotRead_CostsNobodyAFrame_TakesBoundedMemory_AndIsClosed)
   EXPECT_THAT(request(port(), "GET", "/metrics").body, HasSubstr(all_closed));
 #if !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)
   // All of them share what is held, some 2 MB of the stream's own; copies of what waits for each would be 15 MB.
-  EXPECT_LT(resident_kib(server_->pid()) - memory, 12 * 1024);
+  EXPECT_LT(resident_kib(server().pid()) - memory, 12 * 1024);
 #else
   EXPECT_GT(memory, 0);
 #endif
@@ -583,13 +573,13 @@ TEST_F(Streams, ZStop_TellsSubscribersGoodbye) {
   WebSocket socket(port(), "/v1/streams/demo", "");
   socket.send_text(hello("subscribe"));
   next(socket);
-  kill(server_->pid(), SIGTERM);
+  kill(server().pid(), SIGTERM);
   json last;
   while (const auto text = socket.receive()) last = json::parse(*text);
   EXPECT_EQ(last["type"], "end");
   EXPECT_EQ(last["reason"], "shutdown");
   EXPECT_EQ(socket.close_code(), 1001);
-  EXPECT_EQ(server_->end(0), 0) << "without another signal, which would end it at once";
+  EXPECT_EQ(server().end(0), 0) << "without another signal, which would end it at once";
 }
 
 }  // namespace
