@@ -78,6 +78,7 @@ class FullDiskQueueTest : public ::testing::Test {
     model.id = model.name = id;
     model.created = model.updated = job.created;
     model.source_sha256 = blob->sha256;
+    model.source_bytes = blob->bytes;
     store_->create_model(model, {"source", blob->sha256, blob->bytes, ""}, job, std::nullopt);
     return job;
   }

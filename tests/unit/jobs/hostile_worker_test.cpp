@@ -43,6 +43,7 @@ class HostileWorkerTest : public ::testing::Test {
     model.file_name = "triangle.obj";
     model.created = model.updated = job.created;
     model.source_sha256 = blob->sha256;
+    model.source_bytes = blob->bytes;
     store_->create_model(model, {"source", blob->sha256, blob->bytes, ""}, job, std::nullopt);
     JobQueue queue({*store_, *store_, *store_}, *blobs_, *pending_, config_);
     std::mutex mutex;

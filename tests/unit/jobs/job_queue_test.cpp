@@ -33,6 +33,7 @@ class JobQueueTest : public ::testing::Test {
       record.id = record.name = model;
       record.created = record.updated = job.created;
       record.source_sha256 = blob->sha256;
+      record.source_bytes = blob->bytes;
       store_->create_model(record, {"source", blob->sha256, blob->bytes, ""}, job, std::nullopt);
     } else {
       store_->create_job(job, {}, std::nullopt);

@@ -4914,7 +4914,7 @@ export interface operations {
                 "application/json": components["schemas"]["SpeechRequest"];
                 "multipart/form-data": {
                     options: components["schemas"]["TimelineSpeechRequest"];
-                    /** @description At most 4 MiB: visemes of Azure (JSON, or as its samples print them), speech marks of Amazon Polly, TSV, XML or JSON of Rhubarb Lip Sync, an answer of HeadTTS, lines of begin, end (s) and a phoneme in IPA between tabs, or a timeline of a speech of this server. Left out: the sound is aligned with `text`; without `text` its words or visemes are heard */
+                    /** @description At most 4 MiB: visemes of Azure (JSON, or as its samples print them), speech marks of Amazon Polly, TSV, XML or JSON of Rhubarb Lip Sync, an answer of HeadTTS, lines of begin, end (s) and a phoneme in IPA between tabs, or a timeline of a speech of this server. Left out: the sound is aligned with `text`; without `text` its words or visemes are heard. An empty file is refused, one without a name counts as left out */
                     timeline?: string;
                     /** @description The sound: WAV, PCM of 8 to 32 bits or floats, 8,000 to 48,000 samples a second, one to eight channels, at most 1,200 s; where `semblante-sound` is installed also FLAC, Ogg with Vorbis or Opus, and MP3, at most 256 MiB */
                     audio?: string;
