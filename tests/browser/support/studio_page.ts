@@ -209,7 +209,15 @@ export class StudioPage {
   async dropReal(path: string): Promise<void> {
     const devtools = await this.page.context().newCDPSession(this.page);
     const data = { items: [], files: [path], dragOperationsMask: 1 };
-    for (const type of ['dragEnter', 'dragOver', 'drop'] as const) await devtools.send('Input.dispatchDragEvent', { type, x: 700, y: 400, data });
+    await this.page.evaluate(() => addEventListener('drop', () => Object.assign(window, { hasDropped: true }), { capture: true, once: true }));
+    const hasDropped = (): Promise<boolean> =>
+      this.page.waitForFunction(() => 'hasDropped' in window, undefined, { timeout: 10_000 }).then(() => true, () => false);
+    // A busy browser may take the drop for a leave, when the page has not yet said that it takes files.
+    await eventually('the page gets what is dropped', async () => {
+      for (const type of ['dragEnter', 'dragOver', 'drop'] as const) await devtools.send('Input.dispatchDragEvent', { type, x: 700, y: 400, data });
+      return hasDropped();
+    });
+    await this.page.evaluate(() => void Reflect.deleteProperty(window, 'hasDropped'));
     await devtools.detach();
   }
 
