@@ -9,6 +9,7 @@ export default defineConfig({
     include: ['test/**/*.test.ts', '../tests/unit/ts/**/*.test.ts'],
     environment: 'node',
     isolate: false, // a process for each file took three quarters of the time
+    setupFiles: ['test/restore.ts'],
     // Only a hang lasts so long, on however busy a machine.
     testTimeout: 600_000,
     hookTimeout: 600_000,
