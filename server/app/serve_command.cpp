@@ -1,5 +1,3 @@
-#include <cmath>
-#include <cstdlib>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -12,6 +10,7 @@
 #include "server/app/serve.h"
 #include "server/app/serve_options.h"
 #include "server/cli/command_failure.h"
+#include "server/cli/real_range.h"
 #include "server/store/store_error.h"
 
 namespace semblante {
@@ -25,10 +24,6 @@ void declare_serve_options(CLI::App& app, ServeOptions& declared) {
   const auto add = [command](const std::string& name, auto& value, const std::string& help,
                              const std::string& variable) {
     return command->add_option(name, value, help)->envname("SEMBLANTE_" + variable)->capture_default_str();
-  };
-  // CLI::Range takes NaN, which no comparison finds outside of a range.
-  const auto is_number = [](const std::string& text) {
-    return std::isnan(std::strtod(text.c_str(), nullptr)) ? text + " is no number" : std::string();
   };
   // Without a range a negative number would wrap to a huge one.
   const CLI::Range count(1, 1'000'000);
@@ -144,19 +139,16 @@ void declare_serve_options(CLI::App& app, ServeOptions& declared) {
       "Requests per second of one token, or of one address without a token, on a server that asks for tokens; 0: no "
       "limit",
       "CLIENT_REQUESTS")
-      ->check(CLI::Range(0.0, 1e6))
-      ->check(is_number);
+      ->check(real_range(0.0, 1e6));
   add("--client-failures", options->client_limits.failures_per_minute,
       "Tokens of one address per minute that are not accepted, before it has to wait", "CLIENT_FAILURES")
-      ->check(CLI::Range(1.0, 1e6))
-      ->check(is_number);
+      ->check(real_range(1.0, 1e6));
   add("--client-creations", options->client_limits.creations_per_minute,
       "Models, jobs, streams, recordings, speeches and expressions together that one address may create per minute; "
       "this machine "
       "and the scope admin have no such limit; 0: no limit",
       "CLIENT_CREATIONS")
-      ->check(CLI::Range(0.0, 1e6))
-      ->check(is_number);
+      ->check(real_range(0.0, 1e6));
   auto& of_token = options->token_limits;
   add_size("--token-bytes", of_token.bytes,
            "Bytes that one token may have stored: of models, recordings, speeches and expressions; 0: no limit. Tokens "

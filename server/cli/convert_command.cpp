@@ -10,6 +10,7 @@
 #include "server/cli/face_reading_options.h"
 #include "server/cli/files.h"
 #include "server/cli/head_input.h"
+#include "server/cli/real_range.h"
 
 namespace semblante {
 namespace {
@@ -71,7 +72,7 @@ void add_convert_command(CLI::App& app) {
       ->add_option("--rate", options->writing.rate,
                    "Frames a second of a format that has a rate, and of a performance that is read; left out: that of "
                    "FILE, or told from its times, or 25")
-      ->check(CLI::Range(0.001, 1000.0))
+      ->check(real_range(0.001, 1000.0))
       ->envname("SEMBLANTE_RATE");
   command
       ->add_option("--tolerance", options->writing.tolerance,

@@ -11,6 +11,7 @@
 #include "server/cli/files.h"
 #include "server/cli/head_input.h"
 #include "server/cli/obj_writer.h"
+#include "server/cli/real_range.h"
 
 namespace semblante {
 namespace {
@@ -66,7 +67,7 @@ void add_deform_command(CLI::App& app) {
       command->add_option("--set", face.set, "JSON file of a displacement set, as `semblante extract` writes it")
           ->envname("SEMBLANTE_SET");
   command->add_option("--intensity,--at", face.intensity, "Of the viseme, the expression and the set, 0..1")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(real_range(0.0, 1.0))
       ->capture_default_str()
       ->envname("SEMBLANTE_INTENSITY");
   CLI::Option* const displacements =

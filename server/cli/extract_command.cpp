@@ -16,6 +16,7 @@
 #include "server/cli/commands.h"
 #include "server/cli/files.h"
 #include "server/cli/head_input.h"
+#include "server/cli/real_range.h"
 
 namespace semblante {
 namespace {
@@ -137,7 +138,7 @@ void add_extract_command(CLI::App& app) {
   command
       ->add_option("--strength", options->options.strength,
                    "How much of the expression the example shows: 0.5 doubles what it moves")
-      ->check(CLI::Range(least_strength, most_strength))
+      ->check(real_range(least_strength, most_strength))
       ->capture_default_str()
       ->envname("SEMBLANTE_STRENGTH");
   command->add_option("-o,--out", options->out, "JSON file to write; - is standard output")

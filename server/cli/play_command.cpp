@@ -18,6 +18,7 @@
 #include "server/cli/commands.h"
 #include "server/cli/face_formats.h"
 #include "server/cli/files.h"
+#include "server/cli/real_range.h"
 
 namespace semblante {
 namespace {
@@ -192,10 +193,10 @@ void add_play_command(CLI::App& app) {
   command->add_flag("--take-over", options->take_over, "Replace the current source of the stream")
       ->envname("SEMBLANTE_TAKE_OVER");
   command->add_option("--rate", options->rate, "Frames a second; left out: a .fap file's own, else 25")
-      ->check(CLI::Range(1.0, 120.0))
+      ->check(real_range(1.0, 120.0))
       ->envname("SEMBLANTE_RATE");
   command->add_option("--from", options->from, "Begin so many ms after its beginning")
-      ->check(CLI::Range(0.0, 86'400'000.0))
+      ->check(real_range(0.0, 86'400'000.0))
       ->envname("SEMBLANTE_FROM");
   command->add_flag("--quiet", options->quiet, "No progress, no warnings")->envname("SEMBLANTE_QUIET");
   command->callback([options] { run(*options); });

@@ -17,6 +17,7 @@
 #include "server/cli/commands.h"
 #include "server/cli/face_formats.h"
 #include "server/cli/files.h"
+#include "server/cli/real_range.h"
 #include "server/voice/speech_maker.h"
 
 namespace semblante {
@@ -210,13 +211,13 @@ void add_say_command(CLI::App& app, const std::string& sample_head) {
        {std::tuple{"--rate", &options->request.rate, "Times the usual speed of the voice"},
         std::tuple{"--pitch", &options->request.pitch, "Times the usual pitch of the voice"}})
     command->add_option(name, *value, what)
-        ->check(CLI::Range(voice::least_factor, voice::most_factor))
+        ->check(real_range(voice::least_factor, voice::most_factor))
         ->capture_default_str();
   command->add_option("--emotion", options->emotion, "Of the whole text")
       ->check(CLI::IsMember(emotion_names()))
       ->envname("SEMBLANTE_EMOTION");
   command->add_option("--intensity", options->intensity, "Of --emotion")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(real_range(0.0, 1.0))
       ->capture_default_str()
       ->envname("SEMBLANTE_INTENSITY");
   command->add_option("--style", options->style, "How much brows and head take part")
@@ -234,7 +235,7 @@ void add_say_command(CLI::App& app, const std::string& sample_head) {
   command->add_option("--captions", options->captions, "The words with their times, a WebVTT file")
       ->envname("SEMBLANTE_CAPTIONS");
   command->add_option("--fps", options->fps, "Frames a second of --out, unless it is a performance")
-      ->check(CLI::Range(1.0, 120.0))
+      ->check(real_range(1.0, 120.0))
       ->capture_default_str()
       ->envname("SEMBLANTE_FPS");
   add_clip_options(*command, options->clip);
