@@ -241,7 +241,7 @@ class EyeSkin {
     return ends;
   }
 
-  /// The vertex nearest to a place that is not of `held`.
+  /// The vertex nearest to `to` among those that are not held.
   [[nodiscard]] std::optional<SurfaceVertexId> nearest_but(std::span<const SurfaceVertexId> held,
                                                            const glm::dvec3& to) const {
     std::optional<SurfaceVertexId> best;

@@ -13,9 +13,12 @@
 namespace semblante {
 namespace {
 
+/// Of an opening that is no mouth: 0 left, 1 right.
+std::size_t eye_of(const Opening& opening) { return &opening == &openings[1] ? 0 : 1; }
+
 /// How far lids of one skin close before it folds, as a share of their distance; of lids that roll.
 std::optional<double> closed_share(const Subject& head, const Opening& opening) {
-  const auto& lids = head.rig.lids[&opening == &openings[1] ? 0 : 1];
+  const auto& lids = head.rig.lids[eye_of(opening)];
   const auto& upper = head.frame.place(opening.upper.front());
   const auto& lower = head.frame.place(opening.lower.front());
   if (!lids || !upper || !lower || !(upper->y > lower->y)) return std::nullopt;
@@ -24,8 +27,7 @@ std::optional<double> closed_share(const Subject& head, const Opening& opening) 
 
 /// Whether lids of one skin close over an eye that is modelled in it: nothing is to be done then.
 bool closes_over_eye(const Subject& head, const Opening& opening, const ModelledEyes& modelled) {
-  const std::size_t eye = &opening == &openings[1] ? 0 : 1;
-  return head.method == WeightMethod::smooth && !opening.is_mouth && head.rig.lids[eye] && modelled[eye];
+  return !opening.is_mouth && head.rig.lids[eye_of(opening)] && modelled[eye_of(opening)];
 }
 
 }  // namespace
@@ -35,7 +37,9 @@ std::vector<Finding> find_joined_rims(const Subject& head) {
   std::vector<SurfacePoint> points = surface_points(head.surface, head.rig.points);
   // With a point on the other rim the path does not cross the gap.
   std::erase_if(points, [&](const SurfacePoint& p) { return is_misplaced(head.misplaced, p.id); });
-  const ModelledEyes modelled = find_modelled_eyes(head.surface, head.model.triangles, head.rig.parts, points);
+  ModelledEyes modelled;
+  if (head.method == WeightMethod::smooth)
+    modelled = find_modelled_eyes(head.surface, head.model.triangles, head.rig.parts, points);
   for (const Opening& opening : openings) {
     if (closes_over_eye(head, opening, modelled)) continue;
     const std::optional<RimCrossing> crossing = shortest_crossing(head.surface, opening, points);
