@@ -66,20 +66,22 @@ function troubleOf(status: number, absent: Trouble, name: string): FaceTrouble {
 /** What the page's developer was told already. */
 const hinted = new Set<string>();
 
+function hintOnce(words: string): void {
+  if (hinted.has(words)) return;
+  hinted.add(words);
+  console.warn(`semblante-face: ${words}`);
+}
+
 /** To the page's developer, once a server: the browser does not tell a page a refused origin from a server that is down. */
 function hintOrigin(base: string): void {
   const { origin } = location;
-  if (new URL(base, location.href).origin === origin || hinted.has(base)) return;
-  hinted.add(base);
-  console.warn(`semblante-face: ${base} cannot be reached, or refuses pages of another origin: semblante serve --allow-origin ${origin}`);
+  if (new URL(base, location.href).origin === origin) return;
+  hintOnce(`${base} cannot be reached, or refuses pages of another origin: semblante serve --allow-origin ${origin}`);
 }
 
 /** To the page's developer: which file a bundler has left behind, or that the page's Content-Security-Policy forbids WebAssembly. */
 function hintLibrary(fault: unknown): void {
-  const words = fault instanceof Error ? fault.message : String(fault);
-  if (hinted.has(words)) return;
-  hinted.add(words);
-  console.warn(`semblante-face: ${words}`);
+  hintOnce(fault instanceof Error ? fault.message : String(fault));
 }
 
 /** The id of the model that a stream shows. Throws FaceTrouble. */

@@ -62,7 +62,7 @@ export class StreamSound {
   /** To call by a tap or a key. Rejects where the browser does not allow sound or does not decode Opus. */
   async start(): Promise<void> {
     const { rate, channels } = this.client.header?.sound ?? { rate: 48_000, channels: 1 };
-    // The first decoder takes a browser 100 ms, by which the first packet would come too late.
+    // A browser needs about 100 ms for its first decoder. Made for the first packet, it would give that packet too late.
     this.decoderOf(rate, channels);
     // The rate of Opus: otherwise each packet would be resampled by itself, which is heard at its ends.
     if (!this.context) {
