@@ -15,7 +15,7 @@ namespace {
 constexpr std::uint64_t reserve = 512;
 /// Left for files of bodies by any number of connections, if the process may open so many.
 constexpr std::uint64_t least_bodies = 256;
-/// The server itself has 15 files open; a request, a job and a voice at the same time need the most of the others.
+/// The server itself has 15 files open. The others are for a request, a job and a voice at the same time.
 constexpr std::uint64_t fewest = 64;
 /// Bounds the memory when the system has no limit: about 8 KiB per connection.
 constexpr std::uint64_t most = 65'536;
