@@ -108,7 +108,8 @@ void run(const std::vector<Head>& heads, bool in_full) {
       print_folds(face, in_full);
       print_eye_folds(face);
       print_closure(face);
-      std::printf("  upper lip moves with the lower lip by at most %.1f %%\n", 100.0 * leak_to_upper_lip(face));
+      if (const auto leak = leak_to_upper_lip(face))
+        std::printf("  upper lip moves with the lower lip by at most %.1f %%\n", 100.0 * *leak);
       std::fflush(stdout);
     }
   }

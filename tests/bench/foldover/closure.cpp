@@ -284,15 +284,18 @@ Closure Opening::measure(std::span<const glm::vec3> moved) const {
   return worst;
 }
 
-double leak_to_upper_lip(const PosedFace& face) {
+std::optional<double> leak_to_upper_lip(const PosedFace& face) {
+  const auto eyes_apart = face.rig().fapu[FapuUnit::es];
+  const auto nose_to_mouth = face.rig().fapu[FapuUnit::mns];
+  if (!eyes_apart || !nose_to_mouth) return std::nullopt;
   constexpr float down = -100.0F;  // the FAPs of 2.3, 2.8, 2.9, 8.2, 8.7, 8.8 point up
   const auto moved = face.pose(frame_of({{5, down}, {10, down}, {11, down}, {52, down}, {57, down}, {58, down}}));
   const Head& head = face.head();
   const Description lips = describe(OpeningKind::mouth);
   const std::vector<double> to_upper = nearest(head, lips.upper);
   const std::vector<double> to_lower = nearest(head, lips.lower);
-  const double near = 0.14 * 1024.0 * face.rig().fapu[FapuUnit::es].value();
-  const double travel = std::abs(down) * face.rig().fapu[FapuUnit::mns].value();
+  const double near = 0.14 * 1024.0 * *eyes_apart;
+  const double travel = std::abs(down) * *nose_to_mouth;
   double worst = 0.0;
   for (std::size_t v = 0; v < moved.size(); ++v) {
     const std::size_t s = head.surface.surface_of[v].value();

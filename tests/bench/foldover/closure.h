@@ -50,7 +50,7 @@ class Opening {
 
 /// With the six points of the lower lip moved down alike: the greatest motion of a vertex of the upper lip, as share of
 /// theirs. Of the upper lip are vertices within 0.14 ES0 of a point of it along the surface, and at most half as far
-/// from that as from any point of the lower lip.
-double leak_to_upper_lip(const PosedFace& face);
+/// from that as from any point of the lower lip. None where the points do not give the units.
+std::optional<double> leak_to_upper_lip(const PosedFace& face);
 
 }  // namespace semblante::bench

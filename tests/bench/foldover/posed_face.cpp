@@ -1,23 +1,28 @@
 #include "tests/bench/foldover/posed_face.h"
 
 #include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <stdexcept>
 #include <utility>
 
-#include "core/parametrize/place_feature_points.h"
+#include "core/pipeline/points_file.h"
 #include "tests/oracle/real_heads.h"
 #include "tests/support/sample_head_model.h"
 
 namespace semblante::bench {
 namespace {
 
-Head make_head(std::string name, Model model, const std::vector<MarkedPoint>& marked) {
-  Head head{std::move(name), std::move(model), {}, {}};
-  head.surface = build_surface(head.model);
-  auto points = place_feature_points(head.model, head.surface, marked, nullptr);
-  if (!points) throw std::runtime_error(head.name + ": " + points.error().message);
-  head.points = *std::move(points);
-  return head;
+std::string read_text(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw std::runtime_error("cannot read " + file.string());
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+template <typename T>
+T value_or_throw(const std::filesystem::path& file, Result<T> result) {
+  if (!result) throw std::runtime_error(file.string() + ": " + result.error().message);
+  return *std::move(result);
 }
 
 Rig parametrize_or_throw(const Head& head, WeightMethod method) {
@@ -37,7 +42,12 @@ Head sample_head() {
 }
 
 Head read_head(const std::filesystem::path& model, const std::filesystem::path& points) {
-  return make_head(model.stem().string(), oracle::import_head(model), oracle::read_trusted_points(points));
+  const std::string bytes = read_text(model);
+  auto imported = value_or_throw(model, import_head({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()},
+                                                    {model.filename().string(), std::nullopt, {}}));
+  auto file = value_or_throw(points, parse_feature_points(read_text(points)));
+  auto marked = value_or_throw(points, mark_by_file(std::move(imported), std::move(file)));
+  return {model.stem().string(), std::move(marked.model), std::move(marked.surface), std::move(marked.points)};
 }
 
 std::vector<Head> known_heads() {

@@ -23,7 +23,7 @@ struct Head {
 /// Our own head, then those of the folder of real heads where there is one. Throws where a file cannot be read.
 std::vector<Head> known_heads();
 Head sample_head();
-/// A head of trusted files, in the MPEG-4 axes. Throws likewise.
+/// A head as the server reads it: turned to the MPEG-4 axes by its file of points. Throws likewise.
 Head read_head(const std::filesystem::path& model, const std::filesystem::path& points);
 /// Those of them with eyes and lids of their own, and the members of the sample head's family that have such.
 std::vector<Head> heads_with_lids();

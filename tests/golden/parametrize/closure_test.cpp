@@ -301,7 +301,7 @@ TEST(Closure_Measure, SeesLidsThatStayOpen) {
 TEST(LowerLip, MovesNoUpperLip) {
   for (const bench::Head& head : heads()) {
     const PosedFace face(head, WeightMethod::smooth);
-    EXPECT_LE(bench::leak_to_upper_lip(face), 0.10) << head.name;
+    EXPECT_LE(bench::leak_to_upper_lip(face).value(), 0.10) << head.name;
   }
 }
 
