@@ -1,17 +1,9 @@
 #include "core/anatomy/modelled_eye.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
-#include <iterator>
-#include <limits>
-#include <map>
-#include <string_view>
-#include <utility>
 
-#include <glm/geometric.hpp>
-
+#include "core/anatomy/eye_skin.h"
 #include "core/anatomy/joined_rims.h"
 #include "core/anatomy/lid_edge.h"
 #include "core/tables/openings.h"
@@ -19,371 +11,13 @@
 namespace semblante {
 namespace {
 
-// Lengths in widths of the eye, which is about half of ES0.
-/// The skin that is looked at, about the middle of the lids' points.
-constexpr glm::dvec3 reach(0.9, 0.7, 0.7);
-/// Lids stand this far before the ball, at least.
-constexpr double step_of_lid = 0.05;
-/// The patch from which on a ball is fitted to it, and the radii of balls.
-constexpr double least_for_ball = 0.15;
-constexpr double least_radius = 0.25;
-constexpr double greatest_radius = 2.0;
-/// A ball with a greater radius is none to roll on: the eye is flat.
-constexpr double flat_radius = 1.0;
-/// A patch ends where the surface bends forward by more than this between two triangles, or where a triangle is turned
-/// by more than `greatest_turn` against the ball (cosine of 35 degrees). Radians.
-constexpr double groove = 0.35;
-constexpr double greatest_turn = 0.82;
 /// Beyond the lines through the points of the lids, as a share of the opening's height; the second where a point would
 /// lie on the eye.
 constexpr std::array<double, 2> beyond_points = {0.12, -0.05};
-/// The patch covers at least this share of the opening between the points, seen from the front.
-constexpr double least_covered = 0.45;
-/// At least this share of the patch's outline is a groove; the rest ends between the points. A membrane has none.
-constexpr double least_grooved = 0.6;
 /// The greatest height of the eye that is seen, as a multiple of that at the point of the upper lid.
 constexpr double greatest_beside_point = 1.1;
-/// A patch that has not filled the eye after so many rings of triangles is a strip that winds.
-constexpr int most_rings = 400;
 /// Columns in which the edges of the lids are looked for.
 constexpr int rim_columns = 19;
-
-struct LidPoints {
-  glm::dvec3 upper, lower, inner, outer;
-};
-
-std::optional<LidPoints> lid_points(std::span<const SurfacePoint> points, std::size_t eye) {
-  const SurfacePoint* const upper = point_named(points, eye == 0 ? "3.1" : "3.2");
-  const SurfacePoint* const lower = point_named(points, eye == 0 ? "3.3" : "3.4");
-  const SurfacePoint* const inner = point_named(points, eye == 0 ? "3.11" : "3.8");
-  const SurfacePoint* const outer = point_named(points, eye == 0 ? "3.7" : "3.12");
-  if (upper == nullptr || lower == nullptr || inner == nullptr || outer == nullptr) return std::nullopt;
-  return LidPoints{upper->position, lower->position, inner->position, outer->position};
-}
-
-/// The opening between the points, seen from the front: two parabolas from corner to corner.
-class EyeOpening {
- public:
-  EyeOpening(const LidPoints& p, double beyond) : p_(p), beyond_(beyond * (p.upper.y - p.lower.y)) {}
-  [[nodiscard]] double width() const { return glm::distance(p_.inner, p_.outer); }
-  [[nodiscard]] glm::dvec3 middle() const { return 0.25 * (p_.upper + p_.lower + p_.inner + p_.outer); }
-  [[nodiscard]] bool is_sane() const {
-    return width() > 0.0 && arc(p_.upper.x) > 0.0 && arc(p_.lower.x) > 0.0 && p_.upper.y > p_.lower.y;
-  }
-  [[nodiscard]] bool contains(const glm::dvec3& at) const {
-    return arc(at.x) > 0.0 && height(p_.lower, at.x) - beyond_ < at.y && at.y < height(p_.upper, at.x) + beyond_;
-  }
-  /// 2/3 of width times height, as of every parabola.
-  [[nodiscard]] double area() const {
-    const double across = std::abs(p_.outer.x - p_.inner.x);
-    const auto of = [&](const glm::dvec3& m) { return (m.y - base(m.x)) / arc(m.x) * across * across * across / 6.0; };
-    return of(p_.upper) - of(p_.lower);
-  }
-
- private:
-  [[nodiscard]] double arc(double x) const { return (x - p_.inner.x) * (p_.outer.x - x); }
-  [[nodiscard]] double base(double x) const {
-    return p_.inner.y + (p_.outer.y - p_.inner.y) * (x - p_.inner.x) / (p_.outer.x - p_.inner.x);
-  }
-  [[nodiscard]] double height(const glm::dvec3& middle, double x) const {
-    return base(x) + (middle.y - base(middle.x)) * arc(x) / arc(middle.x);
-  }
-  LidPoints p_;
-  double beyond_;
-};
-
-/// The triangles near an eye, and which belong to it.
-class EyeSkin {
- public:
-  EyeSkin(const Surface& surface, std::span<const Triangle> triangles, PartId part, const EyeOpening& opening)
-      : surface_(surface), opening_(opening), width_(opening.width()) {
-    const glm::dvec3 middle = opening.middle();
-    const auto is_near = [&](SurfaceVertexId v) {
-      const glm::dvec3 d = (surface.positions[v.value()] - middle) / width_;
-      return surface.part_of[v.value()] == part && std::abs(d.x) < reach.x && std::abs(d.y) < reach.y &&
-             std::abs(d.z) < reach.z;
-    };
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::size_t>> at_edge;
-    for (const Triangle& t : triangles) {
-      const Corners c = {surface.surface_of[t[0]], surface.surface_of[t[1]], surface.surface_of[t[2]]};
-      if (!is_near(c[0]) || !is_near(c[1]) || !is_near(c[2])) continue;
-      const glm::dvec3& a = surface.positions[c[0].value()];
-      const glm::dvec3& b = surface.positions[c[1].value()];
-      const glm::dvec3& d = surface.positions[c[2].value()];
-      const glm::dvec3 normal = glm::cross(b - a, d - a);
-      const double length = glm::length(normal);
-      if (!(length > 0.0)) continue;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t from = c[k].value();
-        const std::uint32_t to = c[(k + 1) % 3].value();
-        at_edge[std::minmax(from, to)].push_back(faces_.size());
-      }
-      faces_.push_back({c, normal / length, (a + b + d) / 3.0, 0.5 * length, {}});
-    }
-    for (const auto& [edge, faces] : at_edge) {
-      if (faces.size() != 2) continue;
-      faces_[faces[0]].beside.push_back(faces[1]);
-      faces_[faces[1]].beside.push_back(faces[0]);
-    }
-    of_eye_.assign(faces_.size(), false);
-  }
-
-  /// Marks the triangles of the eye, from the one in the middle of the opening on. Whether they fill it.
-  bool find_eye() {
-    const auto seed = front_face(opening_.middle());
-    if (!seed || !opening_.contains(faces_[*seed].middle)) return false;
-    std::vector<std::size_t> patch = {*seed};
-    of_eye_[*seed] = true;
-    int rings = 0;
-    for (std::size_t grown = 0; grown != patch.size(); ++rings) {
-      if (rings == most_rings) return false;
-      grown = patch.size();
-      ball_ = ball_of(patch);
-      for (std::size_t k = 0; k < grown; ++k) {
-        for (const std::size_t next : faces_[patch[k]].beside) {
-          if (of_eye_[next] || !continues(faces_[patch[k]], faces_[next])) continue;
-          of_eye_[next] = true;
-          patch.push_back(next);
-        }
-      }
-    }
-    const bool is_grooved = grooved_share(patch) > least_grooved;
-    add_holes(patch);
-    double area = 0.0;
-    for (const std::size_t f : patch) area += faces_[f].area * faces_[f].normal.z;
-    return area > least_covered * opening_.area() && is_grooved;
-  }
-
-  [[nodiscard]] std::optional<Sphere> ball() const {
-    return ball_ && ball_->radius < flat_radius * width_ ? ball_ : std::nullopt;
-  }
-
-  /// Whether a vertex is surrounded by the ball: a corner marked there is none.
-  [[nodiscard]] bool is_on_ball(SurfaceVertexId v) const {
-    return ball_ && std::all_of(faces_.begin(), faces_.end(), [&](const Face& face) {
-             return std::find(face.corners.begin(), face.corners.end(), v) == face.corners.end() || is_on_ball(face);
-           });
-  }
-
-  /// The vertices all of whose triangles belong to the eye.
-  [[nodiscard]] std::vector<SurfaceVertexId> inner_vertices() const {
-    std::vector<SurfaceVertexId> inside;
-    std::vector<SurfaceVertexId> outside;
-    for (std::size_t f = 0; f < faces_.size(); ++f) {
-      auto& list = of_eye_[f] ? inside : outside;
-      list.insert(list.end(), faces_[f].corners.begin(), faces_[f].corners.end());
-    }
-    for (auto* const list : {&inside, &outside}) {
-      std::sort(list->begin(), list->end());
-      list->erase(std::unique(list->begin(), list->end()), list->end());
-    }
-    std::vector<SurfaceVertexId> inner;
-    std::set_difference(inside.begin(), inside.end(), outside.begin(), outside.end(), std::back_inserter(inner));
-    return inner;
-  }
-
-  /// Where the eye that is seen at one x ends, above and below.
-  struct Seen {
-    glm::dvec3 upper, lower;
-    [[nodiscard]] double height() const { return upper.y - lower.y; }
-  };
-  [[nodiscard]] std::optional<Seen> seen_at(double x) const {
-    struct Piece {
-      glm::dvec3 low, high;
-      bool is_eye;
-    };
-    std::vector<Piece> pieces;
-    std::vector<double> heights;
-    for (std::size_t f = 0; f < faces_.size(); ++f) {
-      std::vector<glm::dvec3> cut;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const glm::dvec3& a = place(faces_[f].corners[k]);
-        const glm::dvec3& b = place(faces_[f].corners[(k + 1) % 3]);
-        if ((a.x < x) != (b.x < x)) cut.push_back(a + (x - a.x) / (b.x - a.x) * (b - a));
-      }
-      if (cut.size() != 2) continue;
-      if (cut[0].y > cut[1].y) std::swap(cut[0], cut[1]);
-      if (of_eye_[f]) heights.insert(heights.end(), {cut[0].y, cut[1].y});
-      pieces.push_back({cut[0], cut[1], of_eye_[f]});
-    }
-    if (heights.empty()) return std::nullopt;
-    const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
-    constexpr int steps = 200;
-    std::optional<Seen> seen;
-    for (int k = 0; k <= steps; ++k) {
-      const double y = *low + (*high - *low) * (k + 0.5) / (steps + 1);
-      double z = -std::numeric_limits<double>::infinity();
-      bool is_eye = false;
-      for (const Piece& piece : pieces) {
-        if ((piece.low.y < y) == (piece.high.y < y)) continue;
-        const double share = (y - piece.low.y) / (piece.high.y - piece.low.y);
-        const double at = piece.low.z + share * (piece.high.z - piece.low.z);
-        if (at <= z) continue;
-        z = at;
-        is_eye = piece.is_eye;
-      }
-      if (!is_eye) continue;
-      if (!seen) seen = Seen{{x, y, z}, {x, y, z}};
-      seen->upper = {x, y, z};
-    }
-    return seen;
-  }
-
-  [[nodiscard]] std::pair<double, double> across() const {
-    std::pair<double, double> ends(std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity());
-    for (std::size_t f = 0; f < faces_.size(); ++f) {
-      if (!of_eye_[f]) continue;
-      for (const SurfaceVertexId v : faces_[f].corners) {
-        ends.first = std::min(ends.first, place(v).x);
-        ends.second = std::max(ends.second, place(v).x);
-      }
-    }
-    return ends;
-  }
-
-  /// The vertex nearest to `to` among those that are not held.
-  [[nodiscard]] std::optional<SurfaceVertexId> nearest_but(std::span<const SurfaceVertexId> held,
-                                                           const glm::dvec3& to) const {
-    std::optional<SurfaceVertexId> best;
-    double least = std::numeric_limits<double>::infinity();
-    for (const Face& face : faces_) {
-      for (const SurfaceVertexId v : face.corners) {
-        const double away = glm::distance(place(v), to);
-        if (away >= least || std::binary_search(held.begin(), held.end(), v)) continue;
-        least = away;
-        best = v;
-      }
-    }
-    return best;
-  }
-
- private:
-  using Corners = std::array<SurfaceVertexId, 3>;
-  struct Face {
-    Corners corners;
-    glm::dvec3 normal, middle;
-    double area;
-    std::vector<std::size_t> beside;
-  };
-
-  [[nodiscard]] const glm::dvec3& place(SurfaceVertexId v) const { return surface_.positions[v.value()]; }
-
-  /// The foremost triangle at a place, seen from the front.
-  [[nodiscard]] std::optional<std::size_t> front_face(const glm::dvec3& at) const {
-    std::optional<std::size_t> best;
-    double foremost = -std::numeric_limits<double>::infinity();
-    for (std::size_t f = 0; f < faces_.size(); ++f) {
-      const Face& face = faces_[f];
-      if (!(face.normal.z > 0.0) || face.middle.z < foremost) continue;
-      bool is_inside = true;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const glm::dvec3& a = place(face.corners[k]);
-        const glm::dvec3& b = place(face.corners[(k + 1) % 3]);
-        is_inside = is_inside && (b.x - a.x) * (at.y - a.y) - (b.y - a.y) * (at.x - a.x) >= 0.0;
-      }
-      if (!is_inside) continue;
-      foremost = face.middle.z;
-      best = f;
-    }
-    return best;
-  }
-
-  /// The ball through the corners of a patch; empty while it is small.
-  [[nodiscard]] std::optional<Sphere> ball_of(std::span<const std::size_t> patch) const {
-    std::vector<SurfaceVertexId> vertices;
-    glm::dvec3 normal(0.0);
-    for (const std::size_t f : patch) {
-      vertices.insert(vertices.end(), faces_[f].corners.begin(), faces_[f].corners.end());
-      normal += faces_[f].area * faces_[f].normal;
-    }
-    std::sort(vertices.begin(), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-    std::vector<glm::dvec3> positions;
-    glm::dvec3 middle(0.0);
-    for (const SurfaceVertexId v : vertices) {
-      positions.push_back(place(v));
-      middle += place(v) / static_cast<double>(vertices.size());
-    }
-    double extent = 0.0;
-    for (const glm::dvec3& p : positions) extent = std::max(extent, glm::distance(p, middle));
-    constexpr std::size_t least_vertices = 9;
-    if (extent < least_for_ball * width_ || positions.size() < least_vertices) return std::nullopt;
-    const double length = glm::length(normal);
-    if (!(length > 0.0)) return std::nullopt;
-    normal /= length;
-    std::optional<Sphere> ball = fit_sphere(positions);
-    const bool is_hollow = ball && glm::dot(middle - ball->center, normal) < 0.0;
-    const double radius = !ball || is_hollow ? greatest_radius * width_ : ball->radius;
-    const double within = std::clamp(radius, least_radius * width_, greatest_radius * width_);
-    if (!ball || is_hollow || within != radius) ball = Sphere{middle - within * normal, within, 0.0};
-    return ball;
-  }
-
-  /// Adds what the patch surrounds, such as the rim of a carved iris.
-  void add_holes(std::vector<std::size_t>& patch) {
-    std::vector<bool> known = of_eye_;
-    std::vector<std::size_t> pending;
-    const auto visit = [&](std::size_t f) {
-      if (known[f]) return;
-      known[f] = true;
-      pending.push_back(f);
-    };
-    for (std::size_t f = 0; f < faces_.size(); ++f) {
-      if (!opening_.contains(faces_[f].middle)) visit(f);
-    }
-    while (!pending.empty()) {
-      const std::size_t at = pending.back();
-      pending.pop_back();
-      for (const std::size_t next : faces_[at].beside) visit(next);
-    }
-    for (std::size_t f = 0; f < faces_.size(); ++f) {
-      if (known[f]) continue;
-      of_eye_[f] = true;
-      patch.push_back(f);
-    }
-  }
-
-  /// The share of a patch's outline at which the surface does not go on smoothly.
-  [[nodiscard]] double grooved_share(std::span<const std::size_t> patch) const {
-    std::size_t outline = 0;
-    std::size_t grooved = 0;
-    for (const std::size_t f : patch) {
-      for (const std::size_t next : faces_[f].beside) {
-        if (of_eye_[next]) continue;
-        ++outline;
-        if (!is_smooth(faces_[f], faces_[next])) ++grooved;
-      }
-    }
-    return outline > 0 ? static_cast<double>(grooved) / static_cast<double>(outline) : 0.0;
-  }
-
-  /// Whether the eye goes on from one triangle to the next.
-  [[nodiscard]] bool continues(const Face& from, const Face& to) const {
-    return opening_.contains(to.middle) && is_smooth(from, to);
-  }
-
-  [[nodiscard]] bool is_smooth(const Face& from, const Face& to) const {
-    if (!(to.normal.z > 0.0)) return false;
-    const double cosine = glm::dot(from.normal, to.normal);
-    if (glm::dot(from.normal, to.middle - from.middle) > 0.0 && cosine < std::cos(groove)) return false;
-    if (!ball_) return cosine > greatest_turn;
-    return is_on_ball(to);
-  }
-
-  [[nodiscard]] bool is_on_ball(const Face& face) const {
-    const glm::dvec3 d = face.middle - ball_->center;
-    const double distance = glm::length(d);
-    return std::abs(distance - ball_->radius) < step_of_lid * width_ &&
-           glm::dot(face.normal, d) > greatest_turn * distance;
-  }
-
-  const Surface& surface_;
-  const EyeOpening& opening_;
-  double width_;
-  std::vector<Face> faces_;
-  std::vector<bool> of_eye_;
-  std::optional<Sphere> ball_;
-};
 
 /// The heights at which the eye that is seen ends, above and below, as smooth lines from the one end to the other.
 class Curves {
@@ -423,23 +57,35 @@ class Curves {
   std::vector<double> columns_, upper_, lower_;
 };
 
+/// The points of an eye's lids; `left` and `right` are the corners.
+struct LidPoints {
+  SurfacePoint upper, lower, left, right;
+
+  [[nodiscard]] LidPlaces places() const { return {upper.position, lower.position, left.position, right.position}; }
+};
+
+std::optional<LidPoints> lid_points(std::span<const SurfacePoint> points, const mpeg4::Opening& lids) {
+  const SurfacePoint* const upper = point_named(points, lids.upper.front());
+  const SurfacePoint* const lower = point_named(points, lids.lower.front());
+  const SurfacePoint* const left = point_named(points, lids.corners[0]);
+  const SurfacePoint* const right = point_named(points, lids.corners[1]);
+  if (upper == nullptr || lower == nullptr || left == nullptr || right == nullptr) return std::nullopt;
+  return LidPoints{*upper, *lower, *left, *right};
+}
+
 std::optional<ModelledEye> eye_between(const Surface& surface, std::span<const Triangle> triangles,
-                                       std::span<const SurfacePoint> points, const LidPoints& marked,
-                                       const EyeOpening& opening, std::size_t eye) {
+                                       std::span<const SurfacePoint> points, const LidPoints& lids,
+                                       const EyeOpening& opening) {
   if (!opening.is_sane()) return std::nullopt;
-  const SurfacePoint* const upper = point_named(points, eye == 0 ? "3.1" : "3.2");
-  EyeSkin skin(surface, triangles, surface.part_of[upper->vertex.value()], opening);
+  EyeSkin skin(surface, triangles, surface.part_of[lids.upper.vertex.value()], opening);
   if (!skin.find_eye()) return std::nullopt;
+  if (skin.is_on_ball(lids.left.vertex) || skin.is_on_ball(lids.right.vertex)) return std::nullopt;
   ModelledEye found;
   found.held = skin.inner_vertices();
-  for (const std::string_view corner : mpeg4::openings[1 + eye].corners) {
-    const SurfacePoint* const point = point_named(points, corner);
-    if (point != nullptr && skin.is_on_ball(point->vertex)) return std::nullopt;
-  }
   const bool is_point_held = std::any_of(points.begin(), points.end(), [&](const SurfacePoint& p) {
     return std::binary_search(found.held.begin(), found.held.end(), p.vertex);
   });
-  auto middle = skin.seen_at(marked.upper.x);
+  auto middle = skin.seen_at(lids.upper.position.x);
   if (found.held.empty() || is_point_held || !middle || middle->height() < closed_height * opening.width())
     return std::nullopt;
   const Curves curves(skin);
@@ -468,11 +114,11 @@ std::optional<ModelledEye> eye_between(const Surface& surface, std::span<const T
 }
 
 std::optional<ModelledEye> find_modelled_eye(const Surface& surface, std::span<const Triangle> triangles,
-                                             std::span<const SurfacePoint> points, std::size_t eye) {
-  const std::optional<LidPoints> marked = lid_points(points, eye);
-  if (!marked || !are_joined(surface, mpeg4::openings[1 + eye], points)) return std::nullopt;
+                                             std::span<const SurfacePoint> points, const mpeg4::Opening& opening) {
+  const std::optional<LidPoints> lids = lid_points(points, opening);
+  if (!lids || !are_joined(surface, opening, points)) return std::nullopt;
   for (const double beyond : beyond_points) {
-    auto found = eye_between(surface, triangles, points, *marked, EyeOpening(*marked, beyond), eye);
+    auto found = eye_between(surface, triangles, points, *lids, EyeOpening(lids->places(), beyond));
     if (found) return found;
   }
   return std::nullopt;
@@ -486,7 +132,7 @@ ModelledEyes find_modelled_eyes(const Surface& surface, std::span<const Triangle
   for (std::size_t eye = 0; eye < eyes.size(); ++eye) {
     const PartRole role = eye == 0 ? PartRole::left_eye : PartRole::right_eye;
     if (std::any_of(parts.begin(), parts.end(), [role](const Part& part) { return part.role == role; })) continue;
-    eyes[eye] = find_modelled_eye(surface, triangles, points, eye);
+    eyes[eye] = find_modelled_eye(surface, triangles, points, mpeg4::openings[1 + eye]);
   }
   return eyes;
 }
