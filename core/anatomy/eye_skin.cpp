@@ -33,6 +33,19 @@ constexpr double least_covered = 0.45;
 constexpr double least_grooved = 0.6;
 /// A patch that has not filled the eye after so many rings of triangles is a strip that winds.
 constexpr int most_rings = 400;
+/// Knots of the view from the front.
+constexpr double knots_per_width = 80.0;
+
+/// The vertices of `all` that are not of `others`; rising.
+std::vector<SurfaceVertexId> difference(std::vector<SurfaceVertexId> all, std::vector<SurfaceVertexId> others) {
+  for (auto* const list : {&all, &others}) {
+    std::sort(list->begin(), list->end());
+    list->erase(std::unique(list->begin(), list->end()), list->end());
+  }
+  std::vector<SurfaceVertexId> rest;
+  std::set_difference(all.begin(), all.end(), others.begin(), others.end(), std::back_inserter(rest));
+  return rest;
+}
 
 }  // namespace
 
@@ -62,11 +75,12 @@ double EyeOpening::height(const glm::dvec3& middle, double x) const {
   return base(x) + (middle.y - base(middle.x)) * arc(x) / arc(middle.x);
 }
 
-EyeSkin::EyeSkin(const Surface& surface, std::span<const Triangle> triangles, PartId part, const EyeOpening& opening)
-    : surface_(surface), opening_(opening), width_(opening.width()) {
+EyeSkin::EyeSkin(const Surface& surface, std::span<const glm::dvec3> places, std::span<const Triangle> triangles,
+                 PartId part, const EyeOpening& opening, double width)
+    : places_(places), opening_(opening), width_(width) {
   const glm::dvec3 middle = opening.middle();
   const auto is_near = [&](SurfaceVertexId v) {
-    const glm::dvec3 d = (surface.positions[v.value()] - middle) / width_;
+    const glm::dvec3 d = (place(v) - middle) / width_;
     return surface.part_of[v.value()] == part && std::abs(d.x) < reach.x && std::abs(d.y) < reach.y &&
            std::abs(d.z) < reach.z;
   };
@@ -74,9 +88,9 @@ EyeSkin::EyeSkin(const Surface& surface, std::span<const Triangle> triangles, Pa
   for (const Triangle& t : triangles) {
     const Corners c = {surface.surface_of[t[0]], surface.surface_of[t[1]], surface.surface_of[t[2]]};
     if (!is_near(c[0]) || !is_near(c[1]) || !is_near(c[2])) continue;
-    const glm::dvec3& a = surface.positions[c[0].value()];
-    const glm::dvec3& b = surface.positions[c[1].value()];
-    const glm::dvec3& d = surface.positions[c[2].value()];
+    const glm::dvec3& a = place(c[0]);
+    const glm::dvec3& b = place(c[1]);
+    const glm::dvec3& d = place(c[2]);
     const glm::dvec3 normal = glm::cross(b - a, d - a);
     const double length = glm::length(normal);
     if (!(length > 0.0)) continue;
@@ -96,28 +110,78 @@ EyeSkin::EyeSkin(const Surface& surface, std::span<const Triangle> triangles, Pa
 }
 
 bool EyeSkin::find_eye() {
-  const auto seed = front_face(opening_.middle());
+  if (!grow_from(opening_.middle())) return false;
+  const bool is_grooved = grooved_share() > least_grooved;
+  add_holes();
+  double area = 0.0;
+  for (const std::size_t f : patch_) area += faces_[f].area * faces_[f].normal.z;
+  return area > least_covered * opening_.area() && is_grooved;
+}
+
+bool EyeSkin::grow_from(const glm::dvec3& at) {
+  of_eye_.assign(faces_.size(), false);
+  patch_.clear();
+  ball_.reset();
+  const auto seed = front_face(at);
   if (!seed || !opening_.contains(faces_[*seed].middle)) return false;
-  std::vector<std::size_t> patch = {*seed};
+  patch_ = {*seed};
   of_eye_[*seed] = true;
   int rings = 0;
-  for (std::size_t grown = 0; grown != patch.size(); ++rings) {
+  for (std::size_t grown = 0; grown != patch_.size(); ++rings) {
     if (rings == most_rings) return false;
-    grown = patch.size();
-    ball_ = ball_of(patch);
+    grown = patch_.size();
+    ball_ = ball_of(patch_);
     for (std::size_t k = 0; k < grown; ++k) {
-      for (const std::size_t next : faces_[patch[k]].beside) {
-        if (of_eye_[next] || !continues(faces_[patch[k]], faces_[next])) continue;
+      for (const std::size_t next : faces_[patch_[k]].beside) {
+        if (of_eye_[next] || !continues(faces_[patch_[k]], faces_[next])) continue;
         of_eye_[next] = true;
-        patch.push_back(next);
+        patch_.push_back(next);
       }
     }
   }
-  const bool is_grooved = grooved_share(patch) > least_grooved;
-  add_holes(patch);
-  double area = 0.0;
-  for (const std::size_t f : patch) area += faces_[f].area * faces_[f].normal.z;
-  return area > least_covered * opening_.area() && is_grooved;
+  return true;
+}
+
+std::size_t EyeSkin::View::knot(const glm::dvec3& place) const {
+  return at(static_cast<int>(std::lround((place.x - origin.x) / step)),
+            static_cast<int>(std::lround((place.y - origin.y) / step)));
+}
+
+EyeSkin::View EyeSkin::view() const {
+  View view;
+  const glm::dvec3 half = width_ * reach;
+  view.origin = opening_.middle() - half;
+  view.step = width_ / knots_per_width;
+  view.columns = 1 + static_cast<int>(2.0 * half.x / view.step);
+  view.rows = 1 + static_cast<int>(2.0 * half.y / view.step);
+  view.z.assign(view.at(0, view.rows), -std::numeric_limits<double>::infinity());
+  view.is_eye.assign(view.z.size(), false);
+  for (std::size_t f = 0; f < faces_.size(); ++f) {
+    const std::array<glm::dvec3, 3> p = {place(faces_[f].corners[0]), place(faces_[f].corners[1]),
+                                         place(faces_[f].corners[2])};
+    const double area = (p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[2].x - p[0].x) * (p[1].y - p[0].y);
+    if (area == 0.0) continue;
+    const auto [left, right] = std::minmax({p[0].x, p[1].x, p[2].x});
+    const auto [low, high] = std::minmax({p[0].y, p[1].y, p[2].y});
+    const auto knot = [&](double from) { return std::max(0, static_cast<int>(std::ceil(from / view.step))); };
+    for (int row = knot(low - view.origin.y); row < view.rows; ++row) {
+      const double y = view.origin.y + row * view.step;
+      if (y > high) break;
+      for (int column = knot(left - view.origin.x); column < view.columns; ++column) {
+        const double x = view.origin.x + column * view.step;
+        if (x > right) break;
+        const double b = ((x - p[0].x) * (p[2].y - p[0].y) - (p[2].x - p[0].x) * (y - p[0].y)) / area;
+        const double c = ((p[1].x - p[0].x) * (y - p[0].y) - (x - p[0].x) * (p[1].y - p[0].y)) / area;
+        if (b < 0.0 || c < 0.0 || b + c > 1.0) continue;
+        const double z = p[0].z + b * (p[1].z - p[0].z) + c * (p[2].z - p[0].z);
+        const std::size_t at = view.at(column, row);
+        if (z <= view.z[at]) continue;
+        view.z[at] = z;
+        view.is_eye[at] = of_eye_[f];
+      }
+    }
+  }
+  return view;
 }
 
 std::optional<Sphere> EyeSkin::ball() const {
@@ -137,13 +201,17 @@ std::vector<SurfaceVertexId> EyeSkin::inner_vertices() const {
     auto& list = of_eye_[f] ? inside : outside;
     list.insert(list.end(), faces_[f].corners.begin(), faces_[f].corners.end());
   }
-  for (auto* const list : {&inside, &outside}) {
-    std::sort(list->begin(), list->end());
-    list->erase(std::unique(list->begin(), list->end()), list->end());
+  return difference(std::move(inside), std::move(outside));
+}
+
+std::vector<SurfaceVertexId> EyeSkin::vertices_on_ball() const {
+  std::vector<SurfaceVertexId> on_ball;
+  std::vector<SurfaceVertexId> outside;
+  for (std::size_t f = 0; f < faces_.size(); ++f) {
+    auto& list = of_eye_[f] || (ball_ && is_on_ball(faces_[f])) ? on_ball : outside;
+    list.insert(list.end(), faces_[f].corners.begin(), faces_[f].corners.end());
   }
-  std::vector<SurfaceVertexId> inner;
-  std::set_difference(inside.begin(), inside.end(), outside.begin(), outside.end(), std::back_inserter(inner));
-  return inner;
+  return difference(std::move(on_ball), std::move(outside));
 }
 
 std::optional<EyeSkin::Seen> EyeSkin::seen_at(double x) const {
@@ -263,7 +331,7 @@ std::optional<Sphere> EyeSkin::ball_of(std::span<const std::size_t> patch) const
   return ball;
 }
 
-void EyeSkin::add_holes(std::vector<std::size_t>& patch) {
+void EyeSkin::add_holes() {
   std::vector<bool> known = of_eye_;
   std::vector<std::size_t> pending;
   const auto visit = [&](std::size_t f) {
@@ -282,14 +350,14 @@ void EyeSkin::add_holes(std::vector<std::size_t>& patch) {
   for (std::size_t f = 0; f < faces_.size(); ++f) {
     if (known[f]) continue;
     of_eye_[f] = true;
-    patch.push_back(f);
+    patch_.push_back(f);
   }
 }
 
-double EyeSkin::grooved_share(std::span<const std::size_t> patch) const {
+double EyeSkin::grooved_share() const {
   std::size_t outline = 0;
   std::size_t grooved = 0;
-  for (const std::size_t f : patch) {
+  for (const std::size_t f : patch_) {
     for (const std::size_t next : faces_[f].beside) {
       if (of_eye_[next]) continue;
       ++outline;

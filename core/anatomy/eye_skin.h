@@ -44,12 +44,42 @@ class EyeOpening {
 /// and ending in a groove where the lids step forward.
 class EyeSkin {
  public:
-  /// The triangles of `part` near the opening. `triangles` are of file vertices. Keeps references to `surface` and
-  /// `opening`.
-  EyeSkin(const Surface& surface, std::span<const Triangle> triangles, PartId part, const EyeOpening& opening);
+  /// The triangles of `part` near the opening; the eye does not go on beyond it. `places` are those of the vertices of
+  /// `surface`, in the frame of the opening; `triangles` are of file vertices; `width` is that of the eye. Keeps
+  /// references to `places` and `opening`.
+  EyeSkin(const Surface& surface, std::span<const glm::dvec3> places, std::span<const Triangle> triangles, PartId part,
+          const EyeOpening& opening, double width);
 
   /// Marks the triangles of the eye, from the one in the middle of the opening on. Whether they fill it.
   bool find_eye();
+
+  /// Marks the triangles that go on smoothly from the one that is seen at `at`. Whether they end.
+  bool grow_from(const glm::dvec3& at);
+
+  /// Marks what those triangles surround, too, such as the rim of a carved iris.
+  void add_holes();
+
+  /// The ball that the marked triangles lie on; of a flat eye a great one.
+  [[nodiscard]] const std::optional<Sphere>& fitted() const { return ball_; }
+
+  /// What is seen straight from the front, at the knots of a grid.
+  struct View {
+    glm::dvec3 origin{0.0};
+    double step = 0.0;
+    int columns = 0, rows = 0;
+    std::vector<double> z;     ///< #columns * #rows; minus infinity where nothing is seen
+    std::vector<bool> is_eye;  ///< #columns * #rows
+
+    [[nodiscard]] std::size_t at(int column, int row) const {
+      return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column);
+    }
+    [[nodiscard]] glm::dvec3 place(int column, int row) const {
+      return {origin.x + column * step, origin.y + row * step, z[at(column, row)]};
+    }
+    /// The knot nearest to a place within the grid.
+    [[nodiscard]] std::size_t knot(const glm::dvec3& place) const;
+  };
+  [[nodiscard]] View view() const;
 
   /// Empty if the eye is too flat to roll on.
   [[nodiscard]] std::optional<Sphere> ball() const;
@@ -59,6 +89,9 @@ class EyeSkin {
 
   /// The vertices all of whose triangles belong to the eye; rising.
   [[nodiscard]] std::vector<SurfaceVertexId> inner_vertices() const;
+
+  /// Those, and the vertices that are surrounded by the ball; rising.
+  [[nodiscard]] std::vector<SurfaceVertexId> vertices_on_ball() const;
 
   /// Where the eye that is seen at one x ends, above and below.
   struct Seen {
@@ -83,24 +116,23 @@ class EyeSkin {
     std::vector<std::size_t> beside;
   };
 
-  [[nodiscard]] const glm::dvec3& place(SurfaceVertexId v) const { return surface_.positions[v.value()]; }
+  [[nodiscard]] const glm::dvec3& place(SurfaceVertexId v) const { return places_[v.value()]; }
   /// The foremost triangle at a place, seen from the front.
   [[nodiscard]] std::optional<std::size_t> front_face(const glm::dvec3& at) const;
   /// The ball through the corners of a patch; empty while it is small.
   [[nodiscard]] std::optional<Sphere> ball_of(std::span<const std::size_t> patch) const;
-  /// Adds what the patch surrounds, such as the rim of a carved iris.
-  void add_holes(std::vector<std::size_t>& patch);
-  /// The share of a patch's outline at which the surface does not go on smoothly.
-  [[nodiscard]] double grooved_share(std::span<const std::size_t> patch) const;
+  /// The share of the patch's outline at which the surface does not go on smoothly.
+  [[nodiscard]] double grooved_share() const;
   /// Whether the eye goes on from one triangle to the next.
   [[nodiscard]] bool continues(const Face& from, const Face& to) const;
   [[nodiscard]] bool is_smooth(const Face& from, const Face& to) const;
   [[nodiscard]] bool is_on_ball(const Face& face) const;
 
-  const Surface& surface_;
+  std::span<const glm::dvec3> places_;
   const EyeOpening& opening_;
   double width_;
   std::vector<Face> faces_;
+  std::vector<std::size_t> patch_;  ///< the faces of the eye
   std::vector<bool> of_eye_;
   std::optional<Sphere> ball_;
 };

@@ -77,7 +77,8 @@ std::optional<ModelledEye> eye_between(const Surface& surface, std::span<const T
                                        std::span<const SurfacePoint> points, const LidPoints& lids,
                                        const EyeOpening& opening) {
   if (!opening.is_sane()) return std::nullopt;
-  EyeSkin skin(surface, triangles, surface.part_of[lids.upper.vertex.value()], opening);
+  EyeSkin skin(surface, surface.positions, triangles, surface.part_of[lids.upper.vertex.value()], opening,
+               opening.width());
   if (!skin.find_eye()) return std::nullopt;
   if (skin.is_on_ball(lids.left.vertex) || skin.is_on_ball(lids.right.vertex)) return std::nullopt;
   ModelledEye found;
@@ -125,6 +126,12 @@ std::optional<ModelledEye> find_modelled_eye(const Surface& surface, std::span<c
 }
 
 }  // namespace
+
+bool is_held(const ModelledEyes& eyes, SurfaceVertexId vertex) {
+  return std::any_of(eyes.begin(), eyes.end(), [vertex](const std::optional<ModelledEye>& eye) {
+    return eye && std::binary_search(eye->held.begin(), eye->held.end(), vertex);
+  });
+}
 
 ModelledEyes find_modelled_eyes(const Surface& surface, std::span<const Triangle> triangles,
                                 std::span<const Part> parts, std::span<const SurfacePoint> points) {

@@ -34,6 +34,9 @@ struct ModelledEye {
 /// Left, right.
 using ModelledEyes = std::array<std::optional<ModelledEye>, 2>;
 
+/// Whether one of the eyes holds a vertex.
+bool is_held(const ModelledEyes& eyes, SurfaceVertexId vertex);
+
 /// The modelled eyes of a head: those that have no part of their own and lids of one skin (`are_joined`). An eye is
 /// empty if a point of its lids is missing or lies on it (a corner on the ball too), or if no smooth patch fills most
 /// of the opening between the points: a membrane, or a mesh that is too coarse. `triangles` are of file vertices.

@@ -9,7 +9,10 @@
 #include <glm/matrix.hpp>
 
 #include "core/anatomy/front_points.h"
+#include "core/anatomy/joined_rims.h"
 #include "core/anatomy/mirror_plane.h"
+#include "core/anatomy/modelled_eye.h"
+#include "core/anatomy/modelled_rims.h"
 #include "core/anatomy/plausible_joints.h"
 #include "core/anatomy/point_lookup.h"
 #include "core/anatomy/point_order.h"
@@ -33,6 +36,12 @@ constexpr double marking_noise = 0.015;  ///< standard deviation of a marked poi
 constexpr double mirror_noise = 0.02;    ///< standard deviation of the mirror image of a marked point
 constexpr double surely = 0.12;          ///< largest claimed radius of `high` confidence
 constexpr double about = 0.26;           ///< largest claimed radius of `medium` confidence
+/// About an eye that is modelled in the skin: corners so near to where the lids are seen to meet stay; marked points
+/// are no farther from what is seen.
+constexpr double near_corner = 0.06;
+constexpr double near_marked = 0.15;
+/// Middles of its lids are no farther beside the middle, as a share of the eye's width.
+constexpr double greatest_aside = 0.3;
 
 /// How far heads differ from each other beyond what their references tell, as a radius: measured on the proposals for
 /// heads that are not among the references (bench_propose). Zero for the other points.
@@ -136,6 +145,7 @@ class Proposer {
     }
     correct_sides();
     correct_lid_edges();
+    correct_modelled_rims();
     std::sort(proposals_.points.begin(), proposals_.points.end(),
               [](const Proposal& a, const Proposal& b) { return a.point.id < b.point.id; });
     std::sort(proposals_.not_proposed.begin(), proposals_.not_proposed.end(),
@@ -214,8 +224,7 @@ class Proposer {
     FeaturePointSet all = known_;
     for (const Proposal& p : proposals_.points) all.push_back(p.point);
     for (const MisplacedRimPoint& misplaced : find_misplaced_rim_points(surface_, surface_points(surface_, all))) {
-      const auto at = std::find_if(proposals_.points.begin(), proposals_.points.end(),
-                                   [&](const Proposal& p) { return p.point.id == misplaced.point.id; });
+      const auto at = proposal_of(misplaced.point.id.value());
       if (at == proposals_.points.end()) continue;
       const std::size_t id = misplaced.point.id.value();
       const ProposalMethod method = at->method;
@@ -236,8 +245,7 @@ class Proposer {
       const std::size_t lower = index_of(opening.lower.front());
       if (!settled_[upper] || !settled_[lower] || settled_[upper]->y <= settled_[lower]->y) continue;
       for (const std::size_t id : {upper, lower}) {
-        const auto at = std::find_if(proposals_.points.begin(), proposals_.points.end(),
-                                     [&](const Proposal& p) { return p.point.id == id_of(id); });
+        const auto at = proposal_of(id);
         if (at == proposals_.points.end()) continue;
         constexpr double around = 0.15;
         const glm::dvec3 expected = images_[id] ? *images_[id] : guesses_[id]->place;
@@ -255,6 +263,108 @@ class Proposer {
         settle(id, {face_.at(nearest->vertex), nearest->vertex}, ProposalMethod::shape, error, nearest->doubt);
       }
     }
+  }
+
+  /// Moves proposed points of lids about an eye that is modelled in the skin to the edges of the lids as they are seen:
+  /// mirror images and proportions come to lie on the eye, or beside the lids.
+  void correct_modelled_rims() {
+    if (triangles_.empty()) return;
+    for (std::size_t eye = 0; eye < 2; ++eye) {
+      if (!face_.with_role(eye == 0 ? PartRole::left_eye : PartRole::right_eye).empty()) continue;
+      const mpeg4::Opening& lids = mpeg4::openings[1 + eye];
+      const auto& upper = settled_[index_of(lids.upper.front())];
+      const auto& lower = settled_[index_of(lids.lower.front())];
+      const auto& left = settled_[index_of(lids.corners[0])];
+      const auto& right = settled_[index_of(lids.corners[1])];
+      if (!upper || !lower || !left || !right) continue;
+      const auto skin = face_.nearest(PartRole::skin, *upper);
+      if (!skin) continue;
+      const auto rims = find_modelled_rims(surface_, face_.places(), triangles_, surface_.part_of[*skin],
+                                           {*upper, *lower, *left, *right});
+      if (rims) move_to_rims(eye, lids, *rims);
+    }
+  }
+
+  /// To another vertex.
+  struct Move {
+    std::size_t id;
+    std::uint32_t vertex;
+  };
+
+  void move_to_rims(std::size_t eye, const mpeg4::Opening& lids, const ModelledRims& rims) {
+    const double middle = 0.5 * (rims.left.x + rims.right.x);
+    const double width = rims.left.x - rims.right.x;
+    std::vector<Move> moves;
+    for (const bool is_left : {true, false}) {
+      const std::size_t id = index_of(lids.corners[is_left ? 0 : 1]);
+      const glm::dvec3& place = is_left ? rims.left : rims.right;
+      const bool is_off = glm::distance(*settled_[id], place) > near_corner;
+      if (!plan_move(id, place, is_off, rims, moves)) return;
+    }
+    for (const bool is_upper : {true, false}) {
+      const std::size_t id = index_of(is_upper ? lids.upper.front() : lids.lower.front());
+      const glm::dvec3& before = *settled_[id];
+      const bool is_aside = std::abs(before.x - middle) > greatest_aside * width;
+      const ModelledRims::Column& edges = rims.at(is_aside ? middle : before.x);
+      const glm::dvec3& place = is_upper ? edges.upper : edges.lower;
+      // The person who marked the other eye's lid may have meant a place a little beside what is seen of the edge.
+      const double off = (images_[id] ? 0.5 : 1.0) * (before.y - place.y);
+      const bool is_off = is_aside || !is_on_edge(off, edges.upper.y - edges.lower.y, 1.0);
+      if (!plan_move(id, place, is_off, rims, moves)) return;
+    }
+    if (moves.empty() || !closes_after(moves, eye, lids)) return;
+    for (const Move& move : moves) {
+      const auto at = proposal_of(move.id);
+      taken_.erase(surface_.surface_of[at->point.vertex->value()].value());
+      proposals_.points.erase(at);
+    }
+    for (const Move& move : moves) {
+      const double off = glm::distance(face_.at(move.vertex), *settled_[move.id]);
+      settle(move.id, {face_.at(move.vertex), move.vertex}, ProposalMethod::shape,
+             std::max(guesses_[move.id]->error, 0.5 * off));
+    }
+  }
+
+  /// Adds a move to the vertex nearest to `place`, of a proposed point that is `off` it or on the eye. False if the
+  /// edges cannot be those of this eye: they are too far from a marked point, or from where the point is expected.
+  bool plan_move(std::size_t id, const glm::dvec3& place, bool is_off, const ModelledRims& rims,
+                 std::vector<Move>& moves) {
+    const auto at = proposal_of(id);
+    if (at == proposals_.points.end()) return glm::distance(*settled_[id], place) < near_marked;
+    if (!at->point.vertex) return true;
+    const std::uint32_t before = surface_.surface_of[at->point.vertex->value()].value();
+    if (!is_off && !rims.is_of_eye(SurfaceVertexId(before))) return true;
+    const auto vertex = face_.nearest(PartRole::skin, place, nullptr, [&](std::uint32_t v) {
+      return (v == before || !taken_.contains(v)) && !rims.is_of_eye(SurfaceVertexId(v));
+    });
+    if (!vertex || !is_near(face_.at(*vertex), *settled_[id], guesses_[id]->error)) return false;
+    if (*vertex != before) moves.push_back({id, *vertex});
+    return true;
+  }
+
+  /// Whether the points keep their order on the face when they are moved, and lids of one skin close over their eye.
+  [[nodiscard]] bool closes_after(const std::vector<Move>& moves, std::size_t eye, const mpeg4::Opening& lids) const {
+    Places moved = settled_;
+    for (const Move& move : moves) moved[move.id] = face_.at(move.vertex);
+    if (std::any_of(moves.begin(), moves.end(), [&](const Move& move) {
+          return !order_bounds(id_of(move.id), moved).contains(face_.at(move.vertex));
+        }))
+      return false;
+    FeaturePointSet all = known_;
+    for (const Proposal& p : proposals_.points) all.push_back(p.point);
+    std::vector<SurfacePoint> points = surface_points(surface_, all);
+    for (SurfacePoint& point : points) {
+      for (const Move& move : moves) {
+        if (point.id != id_of(move.id)) continue;
+        point = {point.id, SurfaceVertexId(move.vertex), surface_.positions[move.vertex]};
+      }
+    }
+    return !are_joined(surface_, lids, points) || find_modelled_eyes(surface_, triangles_, parts_, points)[eye];
+  }
+
+  std::vector<Proposal>::iterator proposal_of(std::size_t id) {
+    return std::find_if(proposals_.points.begin(), proposals_.points.end(),
+                        [id](const Proposal& p) { return p.point.id == id_of(id); });
   }
 
   /// Whether a place of the surface may be the point expected at `place`.
