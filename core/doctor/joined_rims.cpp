@@ -38,7 +38,7 @@ std::vector<Finding> find_joined_rims(const Subject& head) {
   // With a point on the other rim the path does not cross the gap.
   std::erase_if(points, [&](const SurfacePoint& p) { return is_misplaced(head.misplaced, p.id); });
   ModelledEyes modelled;
-  if (head.method == WeightMethod::smooth)
+  if (are_shares(head.method))
     modelled = find_modelled_eyes(head.surface, head.model.triangles, head.rig.parts, points);
   for (const Opening& opening : openings) {
     if (closes_over_eye(head, opening, modelled)) continue;

@@ -203,15 +203,19 @@ class PartFit {
 }  // namespace
 
 std::vector<double> freedom_of_members(const Surface& surface, const PointDistances& distances,
-                                       std::span<const MarginSite> margins, double unit) {
+                                       std::span<const MarginSite> margins, double unit, const ModelledEyes& modelled) {
   std::vector<double> freedom(distances.members.size(), 1.0);
   std::vector<glm::dvec3> edges;
   for (const MarginSite& margin : margins) {
     if (margin.is_edge) edges.push_back(surface.positions[margin.vertex.value()]);
   }
+  for (std::size_t m = 0; m < freedom.size(); ++m) {
+    if (is_held(modelled, distances.members[m])) freedom[m] = 0.0;
+  }
   if (edges.empty()) return freedom;
   const NearestPoint nearest(edges);
   for (std::size_t m = 0; m < freedom.size(); ++m) {
+    if (freedom[m] == 0.0) continue;
     const glm::dvec3& p = surface.positions[distances.members[m].value()];
     if (nearest.has_within(p, held * unit)) freedom[m] = smooth_step(0.0, held, nearest.nearest(p).distance / unit);
   }

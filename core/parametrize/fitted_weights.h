@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "core/anatomy/modelled_eye.h"
 #include "core/anatomy/opening_margins.h"
 #include "core/geometry/surface.h"
 #include "core/parametrize/point_distances.h"
@@ -22,9 +23,11 @@ struct FittedWeights {
 };
 
 /// How far the row of each member (#M) may leave its smooth row, 0..1: not at all on the edges of lips and lids, so
-/// that mouth and eyes still shut, and fully about a tenth of `unit` away from them.
+/// that mouth and eyes still shut, and fully about a tenth of `unit` away from them. What is held of an eye that is
+/// modelled in the skin stays.
 std::vector<double> freedom_of_members(const Surface& surface, const PointDistances& distances,
-                                       std::span<const MarginSite> margins, double unit);
+                                       std::span<const MarginSite> margins, double unit,
+                                       const ModelledEyes& modelled = {});
 
 /// Fits the weights of one part to shapes of the head itself. In a shape the points move as their vertices do, and
 /// Eq. 7 predicts the displacement of every other vertex from theirs. The row of a vertex minimizes

@@ -223,7 +223,7 @@ Result<Rig> parametrize(const Model& model, const Surface& surface, const Featur
     weight_options.shapes = own.shapes;
     for (const Part& part : rig.parts) weight_options.fitted_parts.push_back(part.role == PartRole::skin);
   }
-  if (options.weights == WeightMethod::smooth)
+  if (are_shares(options.weights))
     weight_options.modelled_eyes = find_modelled_eyes(surface, model.triangles, rig.parts, on_surface);
   Result<SurfaceWeights> weighed = surface_weights(surface, on_surface, options.progress, weight_options);
   if (!weighed) return weighed.error();

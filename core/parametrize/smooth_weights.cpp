@@ -75,10 +75,6 @@ std::size_t member_of(const PointDistances& distances, SurfaceVertexId vertex) {
   return static_cast<std::size_t>(at - distances.members.begin());
 }
 
-bool is_held(const ModelledEye& eye, SurfaceVertexId vertex) {
-  return std::binary_search(eye.held.begin(), eye.held.end(), vertex);
-}
-
 /// The sockets of the eyes that are not modelled in the skin, and the mouth if the jaw's point is marked.
 std::vector<Cavity> cavities_with_target(const Surface& surface, PartId part, std::span<const SurfacePoint> points,
                                          const ModelledEyes& modelled) {
@@ -86,13 +82,10 @@ std::vector<Cavity> cavities_with_target(const Surface& surface, PartId part, st
   const bool has_jaw = std::any_of(points.begin(), points.end(),
                                    [](const SurfacePoint& p) { return p.id == parse_feature_point("2.1"); });
   if (!has_jaw) std::erase_if(cavities, [](const Cavity& c) { return c.is_mouth; });
-  for (const auto& eye : modelled) {
-    if (!eye) continue;
-    std::erase_if(cavities, [&](const Cavity& c) {
-      return !c.is_mouth &&
-             std::any_of(c.members.begin(), c.members.end(), [&](SurfaceVertexId v) { return is_held(*eye, v); });
-    });
-  }
+  std::erase_if(cavities, [&](const Cavity& c) {
+    return !c.is_mouth &&
+           std::any_of(c.members.begin(), c.members.end(), [&](SurfaceVertexId v) { return is_held(modelled, v); });
+  });
   return cavities;
 }
 
@@ -175,8 +168,7 @@ WeightTable<double> smooth_part_weights(const Surface& surface, const PointDista
 
   WeightTable<double> table;
   for (std::size_t m = 0; m < distances.members.size(); ++m) {
-    if (std::any_of(modelled.begin(), modelled.end(),
-                    [&](const auto& eye) { return eye && is_held(*eye, distances.members[m]); })) {
+    if (is_held(modelled, distances.members[m])) {
       table.end_row();
     } else if (const auto [cavity, row] = in_cavity[m]; cavity != none) {
       const WeightTable<double>& rows = cavity_rows_of[cavity];

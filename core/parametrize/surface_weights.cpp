@@ -69,9 +69,9 @@ Result<SurfaceWeights> surface_weights(const Surface& surface, std::span<const S
         const double from = work == 0 ? 1.0 : static_cast<double>(done) / static_cast<double>(work);
         const double to = work == 0 ? 1.0 : static_cast<double>(fitted_then) / static_cast<double>(work);
         const double unit = weight_unit(distances, options.eye_separation);
-        auto fitted = fit_part_weights(distances, of_part[p], freedom_of_members(surface, distances, margins, unit),
-                                       shapes_of_members(options.shapes, distances.members), unit, sample_every,
-                                       part_of(progress, from, to));
+        auto fitted = fit_part_weights(
+            distances, of_part[p], freedom_of_members(surface, distances, margins, unit, options.modelled_eyes),
+            shapes_of_members(options.shapes, distances.members), unit, sample_every, part_of(progress, from, to));
         if (!fitted) return fitted.error();
         of_part[p] = std::move(fitted->rows);
         add_errors(fitted->errors, result.errors);

@@ -25,7 +25,7 @@ struct WeightOptions {
   /// PartId. The others keep smooth weights.
   std::span<const Example> shapes = {};
   std::vector<bool> fitted_parts = {};
-  ModelledEyes modelled_eyes = {};  ///< for `smooth`
+  ModelledEyes modelled_eyes = {};  ///< for `smooth` and `fitted`
 };
 
 struct SurfaceWeights {

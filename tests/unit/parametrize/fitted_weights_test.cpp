@@ -154,6 +154,16 @@ TEST_F(FittedWeights_OnSkin, AreHeldAtTheEdgesOfLipsAndLids) {
   EXPECT_EQ(freedom[place(17, 10)], 1.0);
 }
 
+TEST_F(FittedWeights_OnSkin, AreHeldOnAnEyeThatIsModelledInTheSkin) {
+  ModelledEyes modelled;
+  modelled[0] = ModelledEye{{SurfaceVertexId(place(10, 10))}, {}, {}, {}, std::nullopt};
+
+  const std::vector<double> freedom = freedom_of_members(surface_, distances_, {}, 50.0, modelled);
+
+  EXPECT_EQ(freedom[place(10, 10)], 0.0);
+  EXPECT_EQ(freedom[place(11, 10)], 1.0);
+}
+
 TEST_F(FittedWeights_OnSkin, AreCancelled) {
   const auto stopped = fit_part_weights(distances_, smooth_, free_, model_.examples, length_unit, 1,
                                         [](double, std::string_view) { return false; });
