@@ -7,8 +7,8 @@
 #include <string_view>
 
 #include "tests/bench/bridges/ict_shapes.h"
-#include "tests/bench/foldover/fold_over.h"
 #include "tests/oracle/real_heads.h"
+#include "tests/support/fold_over.h"
 
 namespace semblante::bench {
 namespace {

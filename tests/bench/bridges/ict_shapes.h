@@ -6,7 +6,7 @@
 #include <glm/vec3.hpp>
 
 #include "core/bridges/arkit.h"
-#include "tests/bench/foldover/posed_face.h"
+#include "tests/support/posed_face.h"
 
 namespace semblante::bench {
 

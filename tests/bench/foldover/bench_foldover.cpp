@@ -8,9 +8,9 @@
 
 #include "core/expressions/library.h"
 #include "core/parametrize/weight_method.h"
-#include "tests/bench/foldover/closure.h"
-#include "tests/bench/foldover/fold_over.h"
-#include "tests/bench/foldover/posed_face.h"
+#include "tests/support/closure.h"
+#include "tests/support/fold_over.h"
+#include "tests/support/posed_face.h"
 
 namespace semblante::bench {
 namespace {

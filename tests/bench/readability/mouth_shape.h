@@ -7,8 +7,8 @@
 
 #include <glm/vec3.hpp>
 
-#include "tests/bench/foldover/closure.h"
-#include "tests/bench/foldover/posed_face.h"
+#include "tests/support/closure.h"
+#include "tests/support/posed_face.h"
 
 namespace semblante::bench {
 

@@ -8,8 +8,8 @@
 #include "core/performance/performance.h"
 #include "core/speech/speech.h"
 #include "core/speech/utterance.h"
-#include "tests/bench/foldover/posed_face.h"
 #include "tests/bench/readability/mouth_shape.h"
+#include "tests/support/posed_face.h"
 
 namespace semblante::bench {
 

@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "core/bridges/arkit.h"
-#include "tests/bench/foldover/closure.h"
-#include "tests/bench/foldover/fold_over.h"
+#include "tests/support/closure.h"
+#include "tests/support/fold_over.h"
 
 namespace semblante {
 namespace {

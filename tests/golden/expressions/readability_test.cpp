@@ -7,9 +7,9 @@
 
 #include "core/anatomy/point_lookup.h"
 #include "core/expressions/library.h"
-#include "tests/bench/foldover/posed_face.h"
 #include "tests/bench/readability/face_reading.h"
 #include "tests/bench/readability/mouth_shape.h"
+#include "tests/support/posed_face.h"
 
 namespace semblante {
 namespace {

@@ -12,9 +12,9 @@
 #include "core/extract/shape.h"
 #include "core/import/import.h"
 #include "core/parametrize/parametrize.h"
-#include "tests/bench/foldover/posed_face.h"
 #include "tests/golden/extract/turned_scan.h"
 #include "tests/golden/extract/worn_set.h"
+#include "tests/support/posed_face.h"
 #include "tests/support/sample_head_model.h"
 #include "tests/support/sample_shapes.h"
 

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "tests/bench/foldover/posed_face.h"
+#include "tests/support/posed_face.h"
 
 namespace semblante {
 namespace {

@@ -12,8 +12,8 @@
 #include "core/expressions/mirrored.h"
 #include "core/parametrize/place_feature_points.h"
 #include "core/tables/mpeg4.h"
-#include "tests/bench/foldover/posed_face.h"
 #include "tests/oracle/real_heads.h"
+#include "tests/support/posed_face.h"
 #include "tests/support/sample_head_model.h"
 
 namespace semblante {

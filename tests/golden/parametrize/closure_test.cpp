@@ -1,7 +1,7 @@
 // Faces that should be shut are shut, and nothing passes through anything: our own head, and those of others where
 // their folder is.
 
-#include "tests/bench/foldover/closure.h"
+#include "tests/support/closure.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,8 +12,8 @@
 #include "core/anatomy/lid_edge.h"
 #include "core/anatomy/point_lookup.h"
 #include "core/expressions/contact.h"
-#include "tests/bench/foldover/fold_over.h"
-#include "tests/bench/foldover/posed_face.h"
+#include "tests/support/fold_over.h"
+#include "tests/support/posed_face.h"
 #include "tests/support/sample_head_model.h"
 
 namespace semblante {

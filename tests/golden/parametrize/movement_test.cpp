@@ -10,8 +10,8 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "tests/bench/foldover/fold_over.h"
-#include "tests/bench/foldover/posed_face.h"
+#include "tests/support/fold_over.h"
+#include "tests/support/posed_face.h"
 
 namespace semblante {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "core/anatomy/neck.h"
 #include "core/import/import.h"
-#include "tests/bench/foldover/fold_over.h"
-#include "tests/bench/foldover/posed_face.h"
+#include "tests/support/fold_over.h"
+#include "tests/support/posed_face.h"
 #include "tests/support/sample_head_model.h"
 #include "tests/support/sample_shapes.h"
 

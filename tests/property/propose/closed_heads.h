@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/propose/propose.h"
-#include "tests/bench/foldover/posed_face.h"
+#include "tests/support/posed_face.h"
 
 namespace semblante::bench {
 

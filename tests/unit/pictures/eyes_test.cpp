@@ -19,7 +19,7 @@
 #include "core/expressions/kernel_rig.h"
 #include "core/materials/painted_eyes.h"
 #include "core/parametrize/parametrize.h"
-#include "tests/bench/foldover/posed_face.h"
+#include "tests/support/posed_face.h"
 
 namespace semblante {
 namespace {

@@ -1,4 +1,4 @@
-#include "tests/bench/foldover/posed_face.h"
+#include "tests/support/posed_face.h"
 
 #include <algorithm>
 #include <fstream>

@@ -1,4 +1,4 @@
-#include "tests/bench/foldover/closure.h"
+#include "tests/support/closure.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "tests/bench/foldover/fold_over.h"
+#include "tests/support/fold_over.h"
 
 #include <glm/geometric.hpp>
 
