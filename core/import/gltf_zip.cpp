@@ -2,9 +2,13 @@
 
 #include <algorithm>
 
+#include "core/import/foreign_file.h"
 #include "core/import/gltf_reader.h"
+#include "core/import/model_formats.h"
 #include "core/import/obj_reader.h"
+#include "core/import/ply_reader.h"
 #include "core/import/relative_path.h"
+#include "core/import/stl_reader.h"
 #include "core/import/text.h"
 #include "core/import/zip_archive.h"
 #include "core/types/letter_case.h"
@@ -14,11 +18,11 @@ namespace {
 
 bool has_ending(std::string_view name, std::string_view ending) { return lower_case(name).ends_with(ending); }
 
-/// The only entry with this ending; nullopt when there is none. Resource forks added by macOS are ignored.
+/// The only entry with this ending; nullopt when there is none.
 Result<std::optional<std::string>> only_entry(const std::vector<std::string>& names, std::string_view ending) {
   std::optional<std::string> found;
   for (const std::string& name : names) {
-    if (!has_ending(name, ending) || name.starts_with("__MACOSX/")) continue;
+    if (!has_ending(name, ending)) continue;
     if (found) {
       return Error{ErrorCode::invalid_argument, "", "the zip has two models, " + shown(*found) + " and " + shown(name)};
     }
@@ -54,22 +58,27 @@ std::string folder_of(const std::string& name) {
 Result<Model> read_gltf_zip(std::span<const std::uint8_t> bytes, const ImportLimits& limits) {
   auto archive = ZipArchive::open(bytes, limits.max_file_bytes);
   if (!archive) return archive.error();
-  const std::vector<std::string> names = archive->names();
+  std::vector<std::string> names = archive->names();
+  std::erase_if(names, [](const std::string& name) { return name.starts_with("__MACOSX/"); });  // resource forks
   std::optional<std::string> name;
-  bool is_obj = false;
-  for (const std::string_view ending : {".gltf", ".glb", ".vrm", ".obj"}) {
+  for (const std::string_view ending : {".gltf", ".glb", ".vrm", ".obj", ".ply", ".stl"}) {
     const auto entry = only_entry(names, ending);
     if (!entry) return entry.error();
     if (!*entry) continue;
     name = **entry;
-    is_obj = ending == ".obj";
     break;
   }
-  if (!name) return Error{ErrorCode::missing, "", "the zip has no .gltf, .glb, .vrm or .obj file"};
+  if (!name) {
+    const auto other = foreign_zip(names);
+    return Error{ErrorCode::missing, "", other.value_or("the zip has no .gltf, .glb, .vrm, .obj, .ply or .stl file")};
+  }
   const auto model = archive->read(*name, limits.max_file_bytes);
   if (!model) return model.error();
   const std::string folder = folder_of(*name);
-  if (is_obj) {
+  const auto format = format_of_name(*name);
+  if (format == ModelFormat::ply) return read_ply(*model, limits);
+  if (format == ModelFormat::stl) return read_stl(*model, limits);
+  if (format == ModelFormat::obj) {
     return read_obj(*model, limits,
                     [&](std::string_view path, std::size_t max_bytes) -> Result<std::vector<std::uint8_t>> {
                       const auto entry = find_entry(names, folder, path);
@@ -84,8 +93,8 @@ Result<Model> read_gltf_zip(std::span<const std::uint8_t> bytes, const ImportLim
     }
     return archive->read(*entry, max_bytes);
   };
-  return has_ending(*name, ".gltf") ? read_gltf(as_text(*model), limits, resources)
-                                    : read_glb(*model, limits, resources);
+  return format == ModelFormat::gltf ? read_gltf(as_text(*model), limits, resources)
+                                     : read_glb(*model, limits, resources);
 }
 
 }  // namespace semblante::import

@@ -9,8 +9,8 @@
 
 namespace semblante::import {
 
-/// A zip with one .gltf and its files (only relative paths inside the zip), or with one .glb. Entries and inflated
-/// bytes are bounded; entries are inflated on demand, in memory.
+/// A zip with one .gltf and its files (only relative paths inside the zip), or with one model of another format.
+/// Entries and inflated bytes are bounded; entries are inflated on demand, in memory.
 Result<Model> read_gltf_zip(std::span<const std::uint8_t> bytes, const ImportLimits& limits);
 
 }  // namespace semblante::import

@@ -4,6 +4,7 @@
 #include <new>
 #include <string>
 
+#include "core/import/foreign_file.h"
 #include "core/import/gltf_reader.h"
 #include "core/import/gltf_zip.h"
 #include "core/import/obj_reader.h"
@@ -54,6 +55,7 @@ std::optional<ModelFormat> detect_format(std::span<const std::uint8_t> bytes, st
   if (text.substr(begin).starts_with('{')) return ModelFormat::gltf;
   const std::string head = lower_case(text.substr(begin, 4096));
   if (head.starts_with("solid") && head.find("facet") != std::string::npos) return ModelFormat::stl;
+  if (import::foreign_file(bytes)) return std::nullopt;  // a web page may be called head.glb
   if (const auto named = format_of_name(file_name)) return named;
   if (looks_like_obj(text)) return ModelFormat::obj;
   return std::nullopt;
@@ -61,7 +63,8 @@ std::optional<ModelFormat> detect_format(std::span<const std::uint8_t> bytes, st
 
 Result<ModelFormat> format_of(std::span<const std::uint8_t> bytes, std::string_view file_name) {
   if (const auto format = detect_format(bytes, file_name)) return *format;
-  return Error{ErrorCode::unsupported, "", "the file is none of " + model_file_titles()};
+  const auto foreign = import::foreign_file(bytes);
+  return Error{ErrorCode::unsupported, "", foreign.value_or("the file is none of " + model_file_titles())};
 }
 
 Result<Model> import_model(std::span<const std::uint8_t> bytes, ModelFormat format, const ImportLimits& limits,

@@ -82,6 +82,51 @@ TEST(AnyFormat, Detection_NeedsNoName_WhereTheBytesSpeak) {
   EXPECT_EQ(detect_format({}, "head.glb"), ModelFormat::glb);
 }
 
+TEST(AnyFormat, WhatPeopleSendInPlaceOfAModel_IsCalledByItsName_AndWithWhatToDo) {
+  const auto words = [](std::string_view text, std::string_view name) {
+    const auto format = format_of(to_bytes(text), name);
+    return format ? std::string(to_string(*format)) : format.error().message;
+  };
+  const std::string none_of = ", none of GLB, VRM, glTF, OBJ, PLY, STL, ZIP: export the head as GLB";
+  const std::string page = "the file is a web page, not a model: download the model itself";
+  EXPECT_EQ(words(std::string_view("Kaydara FBX Binary  \0\x1A", 22), "a.fbx"),
+            "the format of the file is FBX" + none_of);
+  EXPECT_EQ(words("; FBX 7.3.0 project file\nv 1\n", "a.fbx"), "the format of the file is FBX" + none_of);
+  EXPECT_EQ(words("#usda 1.0\n", ""), "the format of the file is USD" + none_of);
+  EXPECT_EQ(words("\xEF\xBB\xBF<?xml version=\"1.0\"?>\n<COLLADA xmlns=\"x\">", ""),
+            "the format of the file is COLLADA" + none_of);
+  EXPECT_EQ(words(std::string_view("MM\x0A\0\0\0abcd", 10), "x"), "the format of the file is 3DS" + none_of);
+  EXPECT_EQ(words("Rar!\x1A\x07", "a.obj"), "the file is packed (RAR): send the model that is in it, or a zip");
+  EXPECT_EQ(words("\x89PNG\r\n", "a.obj"), "the file is a picture (PNG), not a model");
+  EXPECT_EQ(words("\n <!DOCTYPE html><title>404</title>", "head.glb"), page) << "a download that failed";
+  EXPECT_EQ(words("version https://git-lfs.github.com/spec/v1\noid", "head.glb"),
+            "the file is a pointer of Git LFS in place of the model: git lfs pull fetches the model");
+  EXPECT_EQ(words("<html>", ""), page);
+  EXPECT_EQ(words("MM is a name", "x"), "the file is none of GLB, VRM, glTF, OBJ, PLY, STL, ZIP")
+      << "no 3DS by its size";
+  EXPECT_EQ(words("# FBX to OBJ\nv 0 0 0\n", ""), "obj");
+  for (const NamedFile& file : all_quads()) EXPECT_TRUE(format_of(file.bytes, file.name)) << file.name;
+}
+
+/// A scan in the coordinates of a map.
+TEST(AnyFormat, FarFromTheOrigin_TheLossOfItsShape_IsToldOnImport) {
+  const auto warnings = [](double away, double size) {
+    std::string obj;
+    for (const auto& [x, y] : {std::pair{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}})
+      obj += "v " + std::to_string(away + size * x) + " " + std::to_string(size * y) + " 0\n";
+    const auto model = import_model(to_bytes(obj + "f 1 2 3 4\n"), ModelFormat::obj);
+    return model ? model->warnings : std::vector<std::string>{model.error().message};
+  };
+  const auto far = warnings(500000.0, 0.25);
+  ASSERT_EQ(far.size(), 1U);
+  EXPECT_EQ(far.front(),
+            "the model is so far from the origin that its coordinates are rounded to 0.0312, and it is only 0.354 "
+            "large: move it to the origin before the export");
+  EXPECT_TRUE(warnings(1000.0, 0.25).empty()) << "a tenth of a millimetre";
+  EXPECT_TRUE(warnings(0.0, 0.25).empty());
+  EXPECT_TRUE(warnings(1e7, 1e6).empty());
+}
+
 TEST(ModelFormats, EveryFormat_HasAnEnding_AndItsName) {
   for (const NamedFile& file : all_quads()) EXPECT_EQ(parse_model_format(to_string(file.format)), file.format);
   for (const auto& [format, name] : model_formats) {

@@ -307,6 +307,30 @@ TEST(Zip, Glb_Alone_IsRead) {
   ASSERT_TRUE(model) << model.error().where << model.error().message;
 }
 
+TEST(Zip, PlyAndStl_BesideOtherFiles_AreRead) {
+  for (const auto& [name, bytes] : {std::pair{"scan/Head.PLY", quad_ply_binary(std::endian::big)},
+                                    std::pair{"files/head.stl", quad_stl_binary()}}) {
+    const auto model = import_model(
+        make_zip({{"licence.txt", to_bytes("x")}, {"__MACOSX/files/._head.stl", to_bytes("x")}, {name, bytes}}),
+        ModelFormat::gltf_zip);
+    ASSERT_TRUE(model) << name << model.error().where << model.error().message;
+    EXPECT_EQ(model->positions.size(), 4U) << name;
+  }
+}
+
+TEST(Zip, WithoutAModel_NamesTheFileThatMayBeMeant) {
+  const auto words = [](const char* name) {
+    return import_model(make_zip({{"a.txt", to_bytes("x")}, {name, to_bytes("y")}}), ModelFormat::gltf_zip)
+        .error()
+        .message;
+  };
+  EXPECT_EQ(words("source/Head.FBX"), "the zip has no model but 'source/Head.FBX': export the head as GLB");
+  EXPECT_EQ(words("head.usdc"), "the zip has no model but 'head.usdc': export the head as GLB") << "a .usdz file";
+  EXPECT_EQ(words("source/head.zip"), "the zip has no model but 'source/head.zip': send the model that is in it");
+  EXPECT_EQ(words("b.txt"), "the zip has no .gltf, .glb, .vrm, .obj, .ply or .stl file");
+  EXPECT_EQ(words("__MACOSX/._head.fbx"), "the zip has no .gltf, .glb, .vrm, .obj, .ply or .stl file");
+}
+
 TEST(Zip, Obj_WithItsMaterialsAndImages_IsReadWhole) {
   const Bytes png = png_of(4, 4);
   const std::string mtl =

@@ -15,6 +15,11 @@ export const portugueseDetails: Sentences = {
   // A file of a model.
   'the file is empty': 'o arquivo está vazio',
   'the file is none of {formats}': 'o arquivo não é de nenhum formato de modelo que se conhece aqui',
+  'the format of the file is {format}, none of {formats}: export the head as GLB': 'o formato do arquivo é {format}, que não se lê aqui: exporte a cabeça como GLB',
+  'the file is packed ({format}): send the model that is in it, or a zip': 'o arquivo está compactado ({format}): envie o modelo que há nele, ou um zip',
+  'the file is a picture ({format}), not a model': 'o arquivo é uma imagem ({format}), não um modelo',
+  'the file is a web page, not a model: download the model itself': 'o arquivo é uma página da web, não um modelo: baixe o modelo em si',
+  'the file is a pointer of Git LFS in place of the model: git lfs pull fetches the model': 'o arquivo é um ponteiro do Git LFS no lugar do modelo: git lfs pull busca o modelo',
   'the file has {bytes} bytes, at most {limit} are allowed': 'o arquivo tem {bytes} bytes; são aceitos no máximo {limit}',
   'at most {limit} bytes are accepted here': 'aqui são aceitos no máximo {limit} bytes',
   'the model needs more memory than is available': 'o modelo precisa de mais memória do que há',
@@ -54,7 +59,9 @@ export const portugueseDetails: Sentences = {
   'the STL header declares {count} facets, but the file has bytes for {there}': 'o cabeçalho STL declara {count} facetas, mas o arquivo tem bytes para {there}',
   "the STL ends without 'endsolid'": "o STL acaba sem 'endsolid'",
   'the zip has two models, {first} and {second}': 'o zip tem dois modelos, {first} e {second}',
-  'the zip has no .gltf, .glb, .vrm or .obj file': 'o zip não tem arquivo .gltf, .glb, .vrm ou .obj',
+  'the zip has no .gltf, .glb, .vrm, .obj, .ply or .stl file': 'o zip não tem arquivo .gltf, .glb, .vrm, .obj, .ply ou .stl',
+  'the zip has no model but {name}: export the head as GLB': 'o zip não tem modelo, mas {name}: exporte a cabeça como GLB',
+  'the zip has no model but {name}: send the model that is in it': 'o zip não tem modelo, mas {name}: envie o modelo que há nele',
   'the zip has no such file': 'o zip não tem este arquivo',
   'the zip cannot be read: {message}': 'o zip não pode ser lido: {message}',
   "the zip's entry {name} is damaged": 'o arquivo {name} do zip está danificado',
@@ -97,8 +104,8 @@ export const portugueseDetails: Sentences = {
   'the placed points are on one line or at one place, so the orientation of the head cannot be determined':
     'os pontos marcados estão numa linha ou num lugar só, e não se sabe como a cabeça está orientada',
   'sets the axes of the model, so up and front cannot be set as well': 'define os eixos do modelo, e por isso cima e frente não podem ser definidos também',
-  "only models in MPEG-4's axes are accepted: +X to the face's left, +Y up, +Z out of it":
-    'só são aceitos modelos nos eixos do MPEG-4: +X para a esquerda do rosto, +Y para cima, +Z para fora dele',
+  'leave it out: the server finds the axes by the points, and the model\'s "frame" sets them':
+    'deixe-o de fora: o servidor acha os eixos pelos pontos, e o "frame" da cabeça os define',
   'this is not a unit that depends on the face: IRISD, ES, ENS, MNS or MW': 'não é uma unidade que depende do rosto: IRISD, ES, ENS, MNS ou MW',
   '{unit} must be a length in model units, from 1e-6 to 1e6': '{unit} deve ser um comprimento em unidades do modelo, de 1e-6 a 1e6',
 

@@ -34,6 +34,8 @@ export const portugueseRemarks: Sentences = {
   '{primitive} has points or lines: its vertices keep their numbers, nothing is drawn':
     '{primitive} tem pontos ou linhas: os seus vértices mantêm os números, nada é desenhado',
   '{primitive} has {count} indices, not a multiple of 3; the last are omitted': '{primitive} tem {count} índices, que não são múltiplo de 3; os últimos ficaram de fora',
+  'the model is so far from the origin that its coordinates are rounded to {step}, and it is only {size} large: move it to the origin before the export':
+    'o modelo está tão longe da origem que as suas coordenadas são arredondadas a {step}, e ele só tem {size} de tamanho: leve-o à origem antes de exportar',
   'the model was inside out, as one that was mirrored: its triangles faced inwards; all are turned over':
     'o modelo estava do avesso, como um que foi espelhado: os seus triângulos olhavam para dentro; todos foram virados',
 
