@@ -7,6 +7,7 @@
 #include "core/frame/frame_guess.h"
 #include "core/frame/human_size.h"
 #include "core/tables/mpeg4.h"
+#include "core/types/printable.h"
 
 namespace semblante {
 namespace {
@@ -175,12 +176,12 @@ void guess_unit(std::span<const PlacedPoint> points, ModelFrame& guess) {
   const auto by_size = unit_of_eye_separation(*separation);
   guess.unit_sure = by_size && by_size->is_sure;
   if (!by_size) {
-    guess.reasons.push_back("The marked eyes are " + std::to_string(*separation) +
+    guess.reasons.push_back("The marked eyes are " + in_three_digits(*separation) +
                             " apart, which is no head's size in m, dm, cm, mm or in");
     return;
   }
   guess.unit = by_size->unit;
-  guess.reasons.push_back("The marked eyes are " + std::to_string(*separation) +
+  guess.reasons.push_back("The marked eyes are " + in_three_digits(*separation) +
                           " apart: " + std::to_string(std::lround(*separation * metres_per(by_size->unit) * 1000.0)) +
                           " mm if the unit is " + std::string(to_string(by_size->unit)) +
                           (guess.unit_sure ? "" : "; this is not certain"));

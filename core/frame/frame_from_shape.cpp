@@ -1,24 +1,16 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "core/frame/frame_guess.h"
 #include "core/frame/head_landmarks.h"
 #include "core/frame/human_size.h"
+#include "core/types/printable.h"
 
 namespace semblante {
 namespace {
 
 std::string letter(int axis) { return {"XYZ"[axis]}; }
 std::string name(Direction direction) { return std::string(to_string(direction)); }
-
-/// Three significant digits: "0.398", "39.8".
-std::string in_words(double length) {
-  std::array<char, 32> digits;
-  std::snprintf(digits.data(), digits.size(), "%.3g", length);
-  return digits.data();
-}
 
 /// The guess from the shape of a head without marked points; evidence is used in order of its reliability.
 class ShapeGuess {
@@ -150,7 +142,7 @@ class ShapeGuess {
       if (const auto by_size = unit_of_eye_separation(eyes_->separation)) {
         // Balls without a name are known to be eyes by where they lie on the head.
         take_unit(by_size->unit, by_size->is_sure && (eyes_->by_name || (across_ && up_ && front_)),
-                  "The eyes are " + std::to_string(eyes_->separation) + " apart, which is a face's if the unit is " +
+                  "The eyes are " + in_three_digits(eyes_->separation) + " apart, which is a face's if the unit is " +
                       std::string(to_string(by_size->unit)));
         return;
       }
@@ -168,16 +160,16 @@ class ShapeGuess {
     const bool is_human_in_metres = by_size && by_size->unit == LengthUnit::metre;
     if (is_gltf() && height >= 0.1 && height <= 2.6) {
       take_unit(LengthUnit::metre, is_human_in_metres,
-                "The unit of glTF is the metre, and " + in_words(height) + " m " +
+                "The unit of glTF is the metre, and " + in_three_digits(height) + " m " +
                     (is_human_in_metres ? "fits a head or a body" : "is nearly a head's or a body's size"));
     } else if (by_size) {
       take_unit(by_size->unit, by_size->is_sure && !is_gltf(),
-                "The model is " + in_words(height) +
+                "The model is " + in_three_digits(height) +
                     " tall, which is a head's, a bust's or a body's size if the unit is " +
                     std::string(to_string(by_size->unit)));
     } else {
       take_unit(LengthUnit::metre, false,
-                "The model is " + in_words(height) + " tall, which fits no unit: metres are assumed");
+                "The model is " + in_three_digits(height) + " tall, which fits no unit: metres are assumed");
     }
   }
 

@@ -1,8 +1,12 @@
 #include "core/import/model_builder.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
+#include <optional>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "core/import/text.h"
@@ -85,6 +89,27 @@ bool has_extent(const Model& model) {
   return false;
 }
 
+/// float32 keeps 24 bits of a coordinate. A scan in the coordinates of a map, thousands of kilometres from their
+/// origin, loses the shape of its face; empty if nothing that can be seen is lost.
+std::optional<std::string> lost_shape(const Model& model) {
+  constexpr double least_share = 1.0 / 2000.0;  // of the model, a step between coordinates: a lid is as thick
+  glm::dvec3 low(1e300);
+  glm::dvec3 high(-1e300);
+  for (const Triangle& triangle : model.triangles) {
+    for (const std::uint32_t index : triangle) {
+      low = glm::min(low, glm::dvec3(model.positions[index]));
+      high = glm::max(high, glm::dvec3(model.positions[index]));
+    }
+  }
+  const glm::dvec3 farthest = glm::max(glm::abs(low), glm::abs(high));
+  const auto far = static_cast<float>(std::max({farthest.x, farthest.y, farthest.z}));
+  const double step = std::nextafter(far, std::numeric_limits<float>::infinity()) - far;
+  const double size = glm::distance(low, high);
+  if (model.triangles.empty() || step < least_share * size) return std::nullopt;
+  return "the model is so far from the origin that its coordinates are rounded to " + in_three_digits(step) +
+         ", and it is only " + in_three_digits(size) + " large: move it to the origin before the export";
+}
+
 }  // namespace
 
 void ModelBuilder::begin_primitive(const std::string& name, int material) {
@@ -132,6 +157,7 @@ Result<Model> ModelBuilder::finish(std::string format) && {
   if (degenerate_ > 0) {
     warn(std::to_string(degenerate_) + " triangles that use a vertex twice were omitted");
   }
+  if (auto lost = lost_shape(model)) warn(std::move(*lost));
   model.warnings = warnings_.sentences();
   while (!model.primitives.empty() && model.primitives.back().triangle_count == 0) model.primitives.pop_back();
   normalize_normals(model);

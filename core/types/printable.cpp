@@ -1,6 +1,8 @@
 #include "core/types/printable.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
 
 namespace semblante {
 namespace {
@@ -61,6 +63,12 @@ std::string printable(std::string_view name) {
     name.remove_prefix(utf8_step(name));
   }
   return text;
+}
+
+std::string in_three_digits(double value) {
+  std::array<char, 32> digits;
+  std::snprintf(digits.data(), digits.size(), "%.3g", value);
+  return digits.data();
 }
 
 }  // namespace semblante

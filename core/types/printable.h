@@ -19,4 +19,7 @@ std::size_t utf8_end(std::string_view text);
 /// characters, breaks of lines, and characters that change the direction of the text.
 std::string printable(std::string_view name);
 
+/// A length or another measure with three significant digits, for people: "6.4", "0.0625", "4.5e+06".
+std::string in_three_digits(double value);
+
 }  // namespace semblante
