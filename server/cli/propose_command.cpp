@@ -32,7 +32,6 @@ Json to_json(const FeaturePoint& point, const MarkedHead& head) {
 }
 
 Json document(const MarkedHead& head, const Proposals& proposals) {
-  const glm::dmat3& to_mpeg4 = head.to_mpeg4;
   std::array<Json, feature_point_count> by_id;
   for (const FeaturePoint& point : head.points) by_id[point.id.value()] = to_json(point, head);
   for (const Proposal& proposal : proposals.points) {
@@ -44,10 +43,17 @@ Json document(const MarkedHead& head, const Proposals& proposals) {
     if (!proposal.remark.empty()) json["remark"] = proposal.remark;
     by_id[proposal.point.id.value()] = std::move(json);
   }
-  Json result = {{"to_mpeg4_axes", Json::array()}, {"points", Json::object()}, {"not_proposed", Json::object()}};
-  for (int row = 0; row < 3; ++row) {
-    result["to_mpeg4_axes"].push_back({to_mpeg4[0][row], to_mpeg4[1][row], to_mpeg4[2][row]});
+  Json result = Json::object();
+  // Axes that nobody set, and that do not turn the head, are left to all points: they show what twenty are too few for,
+  // as that a head is tilted.
+  if (head.frame_wish.has_axes() || head.to_mpeg4 != glm::dmat3(1.0)) {
+    const glm::dmat3& to_mpeg4 = head.to_mpeg4;
+    for (int row = 0; row < 3; ++row) {
+      result["to_mpeg4_axes"].push_back({to_mpeg4[0][row], to_mpeg4[1][row], to_mpeg4[2][row]});
+    }
   }
+  result["points"] = Json::object();
+  result["not_proposed"] = Json::object();
   for (std::uint8_t id = 0; id < feature_point_count; ++id) {
     if (!by_id[id].is_null()) result["points"][to_string(FeaturePointId(id))] = std::move(by_id[id]);
   }

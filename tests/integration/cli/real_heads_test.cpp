@@ -1,5 +1,6 @@
 // The real program on whole heads: our own, always, and other people's where they are there.
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
@@ -7,10 +8,13 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat3x3.hpp>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "core/import/import.h"
+#include "core/tables/mpeg4.h"
 #include "deploy/sample_head/write_sample_head.h"
 #include "tests/integration/cli/program.h"
 #include "tests/support/sample_obj.h"
@@ -74,6 +78,39 @@ struct Heads : ::testing::Test {
     return model ? *model : Model{};
   }
 };
+
+/// Twenty points have one pair only, which is too little to show a tilt; with the proposals they show it.
+TEST_F(Heads, Propose_OfATiltedHead_LeavesItsAxesToAllPoints) {
+  const HeadFiles upright = of_our_own("sample");
+  const glm::dmat3 tilt = glm::mat3_cast(glm::angleAxis(glm::radians(25.0), glm::normalize(glm::dvec3(0.2, 0.5, 1.0))));
+  const Model model = import_file(upright.model);
+  std::string obj;
+  for (const glm::vec3& position : model.positions) {
+    const glm::dvec3 p = tilt * glm::dvec3(position);
+    obj += "v " + std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(p.z) + "\n";
+  }
+  for (const Primitive& primitive : model.primitives) {
+    obj += "o " + primitive.name + "\n";
+    for (std::uint32_t t = 0; t < primitive.triangle_count; ++t) {
+      const Triangle& triangle = model.triangles[primitive.first_triangle + t];
+      obj += "f " + std::to_string(triangle[0] + 1) + " " + std::to_string(triangle[1] + 1) + " " +
+             std::to_string(triangle[2] + 1) + "\n";
+    }
+  }
+  const json all = json::parse(read_text(upright.points));
+  json twenty = {{"points", json::object()}};
+  for (const std::string_view id : mpeg4::quick_set)
+    twenty["points"][std::string(id)] = {{"vertex", all["points"][std::string(id)]["vertex"]}};
+  const std::string file = work.write("tilted.obj", obj);
+  const std::string out = work.path("all.json");
+  const Outcome proposed =
+      run_semblante({"propose", file, "--points", work.write("twenty.json", twenty.dump()), "--out", out});
+  ASSERT_EQ(proposed.exit_code, 0) << proposed.err;
+  EXPECT_FALSE(json::parse(read_text(out)).contains("to_mpeg4_axes"));
+  const Outcome examined = run_semblante({"examine", file, "--points", out});
+  EXPECT_NE(examined.err.find("is tilted by 2"), std::string::npos) << examined.err;
+  EXPECT_EQ(examined.out.find("not-upright"), std::string::npos) << examined.out;
+}
 
 TEST_F(Heads, Weights_HaveARowPerFileVertex_BetweenZeroAndOne) {
   for (const HeadFiles& head : all()) {
