@@ -182,6 +182,14 @@ std::variant<http::BodyPlan, http::Response> Api::plan(const http::Request& head
     return to_response(make_problem(
         "unsupported-media-type",
         content_type + " is not accepted here; send the body with Content-Type: " + in_words(route->body.types)));
+  // A compressed body would be stored as it came, and fail later as a file of no format.
+  if (const auto coding = head.header("Content-Encoding").value_or("");
+      !is_safe(head.method) && !coding.empty() && !equal_ignoring_case(coding, "identity")) {
+    auto response = to_response(make_problem("unsupported-media-type",
+                                             "bodies with Content-Encoding are not accepted: send the body as it is"));
+    response.headers["Accept-Encoding"] = "identity";
+    return response;
+  }
   auto body = plan_body(*route, content_type, context_.config.limits);
   if (!body.to_file) return body;
   auto share = take_upload(security, head);

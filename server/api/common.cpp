@@ -8,6 +8,7 @@
 
 #include "core/json/json_pointer.h"
 #include "core/json/read_json.h"
+#include "core/types/printable.h"
 #include "protocol/hash/sha256.h"
 #include "server/api/authorization.h"
 #include "server/http/conditional.h"
@@ -135,8 +136,11 @@ std::size_t page_size(const http::Request& request) {
 std::string clean_file_name(std::string_view name) {
   const auto slash = name.find_last_of("/\\");
   if (slash != std::string_view::npos) name.remove_prefix(slash + 1);
+  std::size_t end = 0;  // of the last whole character within the limit
+  while (end < name.size() && end + utf8_step(name.substr(end)) <= max_file_name_bytes)
+    end += utf8_step(name.substr(end));
   std::string clean;
-  for (const char c : name.substr(0, max_file_name_bytes))
+  for (const char c : name.substr(0, end))
     if (static_cast<unsigned char>(c) >= 0x20 && c != 0x7F) clean.push_back(c);
   return clean;
 }

@@ -33,7 +33,12 @@ Upload take_form(const http::Request& request) {
   Upload upload;
   const http::FormPart* file = nullptr;
   for (const auto& part : *parts) {
-    if (part.name == "file") file = &part;
+    if (part.name == "file") {
+      if (file != nullptr)
+        refuse("invalid-field", "the form has two parts \"file\": send a zip of the model and its other files",
+               "/file");
+      file = &part;
+    }
     if (part.name == "name" && !part.content.empty()) upload.name = checked_text(part.content, max_name_bytes, "/name");
   }
   if (file == nullptr) refuse("invalid-field", "the form has no part \"file\"", "/file");
@@ -53,7 +58,7 @@ Upload take_upload(const http::Request& request) {
     upload = take_form(request);
   } else {
     upload.path = request.body_file->path();
-    upload.file_name = clean_file_name(http::parameter(request.header("Content-Disposition").value_or(""), "filename"));
+    upload.file_name = clean_file_name(http::file_name_of(request.header("Content-Disposition").value_or("")));
   }
   if (const auto name = request.query_value("filename")) upload.file_name = clean_file_name(*name);
   if (const auto name = request.query_value("name")) upload.name = checked_text(*name, max_name_bytes, "?name");

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/types/letter_case.h"
+#include "core/types/percent_decode.h"
 #include "server/http/message.h"
 
 namespace semblante::http {
@@ -56,6 +57,16 @@ std::string parameter(std::string_view value, std::string_view name) {
     if (equal_ignoring_case(key, name)) return found;
   }
   return {};
+}
+
+std::string file_name_of(std::string_view disposition) {
+  const std::string extended = parameter(disposition, "filename*");
+  const auto charset_end = extended.find('\'');
+  const auto language_end = charset_end == std::string::npos ? charset_end : extended.find('\'', charset_end + 1);
+  if (language_end != std::string::npos && equal_ignoring_case(extended.substr(0, charset_end), "utf-8")) {
+    if (auto name = percent_decode(std::string_view(extended).substr(language_end + 1))) return *std::move(name);
+  }
+  return parameter(disposition, "filename");
 }
 
 bool accepts(std::string_view accept, std::string_view media_type) {

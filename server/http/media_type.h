@@ -13,6 +13,10 @@ std::string essence(std::string_view media_type);
 /// quotes are removed. Empty when it is missing.
 std::string parameter(std::string_view value, std::string_view name);
 
+/// The file name in a Content-Disposition, in UTF-8. `filename*` (RFC 8187) has precedence: in forms it should not be
+/// (RFC 7578, 4.2), but some libraries write it there for names beyond ASCII, with a substitute in `filename`.
+std::string file_name_of(std::string_view disposition);
+
 /// Whether an `Accept` value (may be empty: everything) takes this media type. Weights above zero are not ranked: each
 /// resource has one representation.
 bool accepts(std::string_view accept, std::string_view media_type);

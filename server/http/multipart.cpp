@@ -24,7 +24,7 @@ void read_headers(std::string_view block, FormPart& part) {
     while (!value.empty() && value.front() == ' ') value.remove_prefix(1);
     if (equal_ignoring_case(name, "Content-Disposition")) {
       part.name = parameter(value, "name");
-      part.file_name = parameter(value, "filename");
+      part.file_name = file_name_of(value);
     } else if (equal_ignoring_case(name, "Content-Type")) {
       part.content_type = std::string(value);
     }

@@ -77,7 +77,7 @@ void RequestParser::on_request_impl(boost::beast::http::verb, View method, View 
   if (!parsed) {
     problem_ = http::make_problem("malformed-request",
                                   "the request target is not a path, or has an encoded slash, "
-                                  "or a % without two hexadecimal digits after it");
+                                  "a zero byte, or a % without two hexadecimal digits after it");
     return;  // refused after the header, whose Origin decides which pages may read the answer
   }
   request_.path = std::move(parsed->path);

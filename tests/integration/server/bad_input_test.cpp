@@ -49,7 +49,7 @@ TEST_F(BadInput, ZipWithoutModel_IsAMalformedModel) {
       json_of(request(port(), "POST", "/v1/models?filename=a.zip", zip, {{"Content-Type", "application/zip"}}));
   const auto problem = wait_for_job(port(), made["job"]["id"])["problem"];
   EXPECT_EQ(problem["type"], "/problems/malformed-model") << problem;
-  EXPECT_THAT(problem.value("detail", ""), HasSubstr("no .gltf, .glb, .vrm or .obj file"));
+  EXPECT_THAT(problem.value("detail", ""), HasSubstr("no .gltf, .glb, .vrm, .obj, .ply or .stl file"));
 }
 
 /// A misspelt parameter would otherwise be a wish that nobody has heard.
@@ -173,6 +173,39 @@ TEST_F(BadInput, WrongMediaType_IsToldTheRightOne) {
   const auto model = request(port(), "POST", "/v1/models?filename=a.obj", grid_obj(4), form);
   EXPECT_EQ(model.status, 415);
   EXPECT_THAT(json_of(model).value("detail", ""), HasSubstr("application/octet-stream"));
+}
+
+/// A compressed body would fail its import much later, as a file of no format.
+TEST_F(BadInput, CompressedBody_IsRefusedBeforeItIsStored) {
+  const auto with_coding = [](const char* path, const std::string& body, const char* type, const char* coding) {
+    return request(port(), "POST", path, body, {{"Content-Type", type}, {"Content-Encoding", coding}});
+  };
+  const auto model = with_coding("/v1/models?filename=a.obj", "\x1F\x8B\x08 and more", "model/obj", "gzip");
+  EXPECT_EQ(model.status, 415) << model.body;
+  EXPECT_THAT(json_of(model).value("detail", ""), HasSubstr("Content-Encoding"));
+  EXPECT_EQ(with_coding("/v1/streams", "x", "application/json", "br").status, 415);
+  EXPECT_EQ(with_coding("/v1/models?filename=a.obj", grid_obj(4), "model/obj", "identity").status, 202);
+}
+
+TEST_F(BadInput, NamesOfUploads_AreWholeCharacters_AndNeverBlank) {
+  std::string long_name = "a";
+  for (int i = 0; i < 200; ++i) long_name += "%C3%A9";  // of two bytes
+  const Fields type = {{"Content-Type", "model/obj"}};
+  const auto named = request(port(), "POST", "/v1/models?filename=" + long_name + ".obj", grid_obj(4), type);
+  ASSERT_EQ(named.status, 202) << named.body;
+  EXPECT_EQ(named.body.find("\xEF\xBF\xBD"), std::string::npos) << "half a character: " << named.body;
+  EXPECT_EQ(request(port(), "POST", "/v1/models?filename=a.obj&name=%20%20", grid_obj(4), type).status, 422);
+}
+
+TEST_F(BadInput, FormWithTwoFiles_IsRefused_NotHalfOfItTaken) {
+  const auto part = [](const std::string& name, const std::string& content) {
+    return "--Q\r\nContent-Disposition: form-data; name=\"file\"; filename=\"" + name + "\"\r\n\r\n" + content + "\r\n";
+  };
+  const auto reply =
+      request(port(), "POST", "/v1/models", part("a.obj", grid_obj(4)) + part("a.mtl", "newmtl a") + "--Q--",
+              {{"Content-Type", "multipart/form-data; boundary=Q"}});
+  EXPECT_EQ(reply.status, 422) << reply.body;
+  EXPECT_THAT(json_of(reply).value("detail", ""), HasSubstr("zip"));
 }
 
 TEST_F(BadInput, BrokenHandshakes_GetProblemDocuments) {

@@ -44,6 +44,16 @@ TEST(Url, AbsoluteForm_IsAHostAndATarget) {
     EXPECT_FALSE(absolute_target(target)) << target;
 }
 
+TEST(MediaType, FileName_BeyondAscii_IsThatOfTheExtendedParameter) {
+  EXPECT_EQ(file_name_of(R"(form-data; name=file; filename="a.obj")"), "a.obj");
+  EXPECT_EQ(file_name_of("form-data; name=file; filename*=UTF-8''cabe%C3%A7a.obj"), "cabe\xC3\xA7\x61.obj");
+  EXPECT_EQ(file_name_of(R"(form-data; filename="=?utf-8?B?Y2FiZcOnYS5vYmo=?="; filename*=utf-8'pt'cabe%C3%A7a.obj)"),
+            "cabe\xC3\xA7\x61.obj")
+      << "as .NET writes it";
+  for (const char* const broken : {"UTF-8''%ZZ", "UTF-8''a%00", "x", "UTF-16''%00a", "'", ""})
+    EXPECT_EQ(file_name_of(std::string("form-data; filename*=") + broken + "; filename=a.obj"), "a.obj") << broken;
+}
+
 TEST(MediaType, Parameters_MayBeQuotedAndHoldSemicolons) {
   EXPECT_EQ(parameter(R"(form-data; name="a;b\"c"; filename=x.obj)", "name"), "a;b\"c");
   EXPECT_EQ(parameter(R"(form-data; name="a;b"; filename=x.obj)", "FILENAME"), "x.obj");

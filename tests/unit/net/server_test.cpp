@@ -280,6 +280,7 @@ TEST_F(ServerTest, TargetThatCannotBeRead_IsAnsweredWithWhatCanBeWrong) {
                                       {"/ HTTP/1.1\nX:", "does not end with CR LF"},
                                       {"/a?b=%zz", "a % without two hexadecimal digits"},
                                       {"/a%2Fb", "an encoded slash"},
+                                      {"/a%00", "a zero byte"},
                                       {"ftp://localhost/", "is not a path"}}) {
     SCOPED_TRACE(target);
     const Client client(port_);
