@@ -143,11 +143,11 @@ describe('side by side', () => {
     expect(apart(raised.poses)).toBe(0);
 
     expect(raised.painted).toEqual([false, false]);
-    const unpainted = await beside.screenshot();
+    const unpainted = await studio.seen(() => beside.screenshot());
     await page.locator('#influence-view').check();
     expect((await compared(page)).painted).toEqual([true, true]);
     await studio.drawn(3);
-    expect(await studio.difference(unpainted, await beside.screenshot(), [0.25, 0.2, 0.5, 0.6])).toBeGreaterThan(3);
+    expect(await studio.difference(unpainted, await studio.seen(() => beside.screenshot()), [0.25, 0.2, 0.5, 0.6])).toBeGreaterThan(3);
 
     // A playing cue moves both, also in the same frame.
     await page.getByRole('button', { name: 'New performance' }).click();

@@ -49,8 +49,8 @@ async function bytesOfAFrame(studio: StudioPage, devtools: CDPSession): Promise<
 }
 
 test('FrameLoop_StreamDocumentFileAndIdleLife_AllocatesNothing', async () => {
-  const context = await browser.newContext({ viewport: { width: 360, height: 320 }, deviceScaleFactor: coarse, reducedMotion: 'reduce' });
-  const studio = await StudioPage.openIn(context, server.url);
+  const context = await browser.newContext({ viewport: { width: 360, height: 320 }, deviceScaleFactor: coarse, reducedMotion: 'reduce', serviceWorkers: 'block' });
+  const studio = await StudioPage.openIn(context, server.url, { seen: false }); // the graphics card's part is not looked at
   const { page } = studio;
   const devtools = await context.newCDPSession(page);
   await studio.waitForStage('ready');

@@ -52,7 +52,8 @@ async function colourAt(studio: StudioPage, { x, y }: { x: number; y: number }):
   await studio.page.mouse.move(1, 1); // the read-out beside the pointer would cover it
   await studio.page.locator('.reading').waitFor({ state: 'hidden' });
   await studio.drawn(3);
-  const shot = (await studio.page.screenshot({ clip: { x: Math.round(x) - 1, y: Math.round(y) - 1, width: 3, height: 3 } })).toString('base64');
+  const clip = { x: Math.round(x) - 1, y: Math.round(y) - 1, width: 3, height: 3 };
+  const shot = (await studio.seen(() => studio.page.screenshot({ clip }))).toString('base64');
   return studio.page.evaluate(async (png) => {
     const image = await createImageBitmap(new Blob([Uint8Array.from(atob(png), (c) => c.charCodeAt(0))], { type: 'image/png' }));
     const context = new OffscreenCanvas(3, 3).getContext('2d')!;

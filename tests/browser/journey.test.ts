@@ -132,7 +132,7 @@ describe('from a bare avatar to a talking face and a recording', () => {
       await page.waitForFunction(() => (window as unknown as Inside).semblante.driver.source.value !== 'speech');
       await hand.press(button('Video'));
       await button('Stop and save').waitFor();
-      const [video] = await Promise.all([page.waitForEvent('download'), hand.press(button('Again'))]);
+      const [video] = await studio.seen(() => Promise.all([page.waitForEvent('download'), hand.press(button('Again'))]));
       expect(video.suggestedFilename()).toBe('sample-body.webm');
       expect(statSync(await video.path()).size).toBeGreaterThan(10_000);
 

@@ -31,19 +31,22 @@ const camera = (studio: StudioPage): Promise<number[]> =>
 const apart = (a: Spot, b: Spot): number => Math.hypot(a.x - b.x, a.y - b.y);
 
 /** The loupe on the page: its middle, its radius, the stage around it, and how much of it is drawn. */
-async function loupe({ page }: StudioPage): Promise<Spot & { radius: number; inside: boolean; drawn: number }> {
+async function loupe(studio: StudioPage): Promise<Spot & { radius: number; inside: boolean; drawn: number }> {
+  const { page } = studio;
   await page.locator('.loupe canvas').waitFor();
-  return page.evaluate(() => {
-    const element = document.querySelector<HTMLElement>('.loupe')!;
-    const box = element.getBoundingClientRect();
-    const stage = document.querySelector('canvas.canvas')!.getBoundingClientRect();
-    const canvas = element.querySelector('canvas')!;
-    const { data } = canvas.getContext('2d')!.getImageData(0, 0, canvas.width, canvas.height);
-    let opaque = 0;
-    for (let i = 3; i < data.length; i += 4) opaque += data[i]! > 250 ? 1 : 0;
-    const inside = box.left >= stage.left && box.right <= stage.right && box.top >= stage.top && box.bottom <= stage.bottom;
-    return { x: box.left + box.width / 2, y: box.top + box.height / 2, radius: box.width / 2, inside, drawn: (opaque * 4) / data.length };
-  });
+  return studio.seen(() =>
+    page.evaluate(() => {
+      const element = document.querySelector<HTMLElement>('.loupe')!;
+      const box = element.getBoundingClientRect();
+      const stage = document.querySelector('canvas.canvas')!.getBoundingClientRect();
+      const canvas = element.querySelector('canvas')!;
+      const { data } = canvas.getContext('2d')!.getImageData(0, 0, canvas.width, canvas.height);
+      let opaque = 0;
+      for (let i = 3; i < data.length; i += 4) opaque += data[i]! > 250 ? 1 : 0;
+      const inside = box.left >= stage.left && box.right <= stage.right && box.top >= stage.top && box.bottom <= stage.bottom;
+      return { x: box.left + box.width / 2, y: box.top + box.height / 2, radius: box.width / 2, inside, drawn: (opaque * 4) / data.length };
+    }),
+  );
 }
 
 /** The point is chosen by its address, and the camera has arrived in front of it. */

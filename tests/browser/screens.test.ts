@@ -43,7 +43,7 @@ afterAll(async () => {
 });
 
 async function open({ options }: Look, url: string, allowed?: RegExp): Promise<StudioPage> {
-  const context = await browser.newContext({ deviceScaleFactor: keepsPictures ? 1 : coarse, ...options });
+  const context = await browser.newContext({ deviceScaleFactor: keepsPictures ? 1 : coarse, serviceWorkers: 'block', ...options });
   return StudioPage.openIn(context, url, { sharp: keepsPictures, ...(allowed ? { allowed } : {}) });
 }
 

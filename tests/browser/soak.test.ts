@@ -63,10 +63,10 @@ function countGpuObjects(): void {
   }
 }
 
-useStudio({ lively: true });
+useStudio();
 
 test('Studio_Used_HoldsNoMoreAfterEachRound', async () => {
-  const context = await browser.newContext({ viewport: { width: 880, height: 560 }, deviceScaleFactor: coarse, reducedMotion: 'reduce' });
+  const context = await browser.newContext({ viewport: { width: 880, height: 560 }, deviceScaleFactor: coarse, reducedMotion: 'reduce', serviceWorkers: 'block' });
   await context.addInitScript(countGpuObjects);
   const studio = await StudioPage.openIn(context, server.url);
   const { page } = studio;
@@ -86,7 +86,7 @@ test('Studio_Used_HoldsNoMoreAfterEachRound', async () => {
   const look = async (...tabs: string[]): Promise<void> => {
     for (const tab of tabs) {
       await page.locator(`#tab-${tab}`).click();
-      await studio.drawn(5);
+      await studio.drawn(3);
     }
   };
 
@@ -100,7 +100,7 @@ test('Studio_Used_HoldsNoMoreAfterEachRound', async () => {
     await look('points', 'fit', 'live', 'animate');
     await studio.drop(join(root, 'protocol/examples/performances/hello.json'));
     await page.locator('.driver').getByText('Playing hello.json').waitFor();
-    await studio.drawn(20);
+    await studio.drawn(10);
     const group = page.locator('.fap-group').first();
     await group.locator('summary').click();
     await group.locator('input[type=range]').first().press('ArrowRight');
@@ -108,7 +108,7 @@ test('Studio_Used_HoldsNoMoreAfterEachRound', async () => {
     await group.locator('summary').click();
     await page.locator('.driver').getByRole('button').click();
     await page.locator('.driver').getByText(/^Live: /).waitFor();
-    await studio.drawn(20);
+    await studio.drawn(10);
     expect((await fetch(`${server.url}/v1/models/${other}`, { method: 'DELETE' })).status).toBe(204);
     await page.waitForFunction(() => document.querySelectorAll('.head').length === 1); // until the page has heard of it
   };

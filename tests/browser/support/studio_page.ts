@@ -1,16 +1,19 @@
 import { mkdirSync, readFileSync } from 'node:fs';
 import { basename, join } from 'node:path';
 import { chromium as driver, type Browser, type BrowserContext, type BrowserContextOptions, type Page } from 'playwright-core';
+import { keepsPictures } from './looks.ts';
 import { buildDir, chromium } from './paths.ts';
 import { eventually, patience, within } from './patience.ts';
 
 /**
  * Features of Chromium that tests do without. It loads the popups of the address bar for each window, also of a headless browser: a
- * third of a short test's time. The others are those that Playwright turns off, whose switch this one replaces.
+ * third of a short test's time; and it starts a renderer for the next site, which no test goes to. The others are those that
+ * Playwright turns off, whose switch this one replaces.
  */
 const withoutFeatures = [
   'WebUIOmniboxPopup',
   'WebUIOmniboxAimPopup',
+  'SpareRendererForSitePerProcess',
   'AcceptCHFrame',
   'AvoidUnnecessaryBeforeUnloadCheckSync',
   'DestroyProfileOnBrowserClose',
@@ -46,10 +49,16 @@ export interface OpenOptions {
   sharp?: boolean;
   /**
    * Draws each frame, with as many pixels of the face as of the page, for tests of motion, frame rates and video. The others are calm:
-   * they draw ten times a second at most, and a quarter of the pixels. Without a graphics card most of a test's time is drawing, and
-   * a face that moves is drawn as often as the processor can. `useStudio` states it for a whole file.
+   * they draw ten times a second at most, and a quarter of the pixels. A face that moves is drawn as often as the processor can.
+   * `useStudio` states it for a whole file.
    */
   lively?: boolean;
+  /**
+   * Draws its head all the time; without it lively and sharp pages do. The others draw it while a test looks at it, see
+   * `StudioPage.seen`: without a graphics card the surroundings that light it and its first frame take as much of the processor as
+   * the rest of the opening of a page, and a face that moves takes more than all else on the page.
+   */
+  seen?: boolean;
   /** Console errors that the test expects; a refused request, for example, is logged as a failed one. */
   allowed?: RegExp;
 }
@@ -59,6 +68,17 @@ export const coarse = 0.5;
 
 /** What pages are that do not state it, in the present test file. */
 export const usual: Required<Pick<OpenOptions, 'lively'>> = { lively: false };
+
+/** Until `window.isSeen`, draws of WebGL 2 do nothing. Runs in the page. */
+function drawUnseen(): void {
+  const methods = WebGL2RenderingContext.prototype as unknown as Record<string, (...given: unknown[]) => void>;
+  for (const name of ['drawElements', 'drawArrays', 'drawElementsInstanced', 'drawArraysInstanced', 'drawRangeElements']) {
+    const draw = methods[name]!;
+    methods[name] = function (this: WebGL2RenderingContext, ...given) {
+      if ('isSeen' in window) draw.apply(this, given);
+    };
+  }
+}
 
 /** Pages of this context draw seldom and few pixels: see `OpenOptions.lively`. For pages that are not the studio. */
 export function calmDown(context: BrowserContext): Promise<void> {
@@ -71,8 +91,9 @@ export function calmDown(context: BrowserContext): Promise<void> {
     let last = -Infinity;
     let newest = 0;
     const tick = (time: number): void => {
-      if (time - last < leastBetween) {
-        requestFrame(tick);
+      const early = leastBetween - (time - last);
+      if (early > 0) {
+        setTimeout(() => requestFrame(tick), early); // the browser prepares each frame that is asked for, also one that draws nothing
         return;
       }
       last = time;
@@ -111,6 +132,7 @@ export class StudioPage {
   private constructor(
     readonly context: BrowserContext,
     readonly page: Page,
+    private readonly isUnseen: boolean,
   ) {}
 
   static async open(browser: Browser, url: string, options: OpenOptions = {}): Promise<StudioPage> {
@@ -119,6 +141,7 @@ export class StudioPage {
       colorScheme: options.dark ? 'dark' : 'light',
       reducedMotion: options.motion ?? 'reduce',
       deviceScaleFactor: options.sharp ? 1 : coarse,
+      serviceWorkers: 'block', // it loads the whole studio a second time, and keeps it: see offline.test.ts
       ...(options.locale ? { locale: options.locale } : {}),
       ...(options.touch ? { isMobile: true, hasTouch: true } : {}),
     });
@@ -126,14 +149,20 @@ export class StudioPage {
   }
 
   /** In a context of the test's own, which has no page yet. */
-  static async openIn(context: BrowserContext, url: string, options: Pick<OpenOptions, 'allowed' | 'lively' | 'sharp'> = {}): Promise<StudioPage> {
+  static async openIn(context: BrowserContext, url: string, options: Pick<OpenOptions, 'allowed' | 'lively' | 'seen' | 'sharp'> = {}): Promise<StudioPage> {
     context.setDefaultTimeout(patience);
-    if (!(options.lively ?? usual.lively) && !options.sharp) await calmDown(context);
+    const isCalm = !(options.lively ?? usual.lively) && !options.sharp;
+    const isUnseen = !(options.seen ?? !isCalm);
+    if (isCalm) await calmDown(context);
+    if (isUnseen) await context.addInitScript(drawUnseen);
     const page = await context.newPage();
     // Playwright's timeout is not for scripts: one that waits in the page for what never comes would wait without end.
     const evaluate = page.evaluate.bind(page) as (script: unknown, argument?: unknown) => Promise<unknown>;
     page.evaluate = ((script: unknown, argument?: unknown) => within(`a script in the page: ${String(script).slice(0, 200)}`, evaluate(script, argument))) as Page['evaluate'];
-    const studio = new StudioPage(context, page);
+    // By time: at each frame of the display, Playwright's usual way, the browser would prepare 60 frames a second.
+    const waitForFunction = page.waitForFunction.bind(page) as (script: unknown, argument?: unknown, options?: object) => Promise<unknown>;
+    page.waitForFunction = ((script: unknown, argument?: unknown, given?: object) => waitForFunction(script, argument, { polling: 50, ...given })) as Page['waitForFunction'];
+    const studio = new StudioPage(context, page, isUnseen);
     const report = (fault: string): void => {
       if (!options.allowed?.test(fault)) studio.errors.push(fault);
     };
@@ -221,12 +250,33 @@ export class StudioPage {
     await devtools.detach();
   }
 
+  /** What `work` gives while the page draws all that it shows: whatever looks at the pixels of its canvas does so in here. */
+  async seen<T>(work: () => Promise<T>): Promise<T> {
+    if (!this.isUnseen) return work();
+    await this.page.evaluate(async () => {
+      Object.assign(window, { isSeen: true });
+      const scene = (window as unknown as Partial<Inside>).semblante?.scene; // the sign-in has none
+      const stages = [scene, scene?.twin].flatMap((one) => (one ? [one.stage] : []));
+      const drawn = stages.map((stage) => stage.drawn);
+      for (const stage of stages) {
+        if (!('hasSurroundings' in stage)) stage.drawEnvironment(); // a texture, drawn once
+        Object.assign(stage, { hasSurroundings: true }).invalidate();
+      }
+      while (stages.some((stage, i) => stage.drawn === drawn[i])) await new Promise(requestAnimationFrame);
+    });
+    try {
+      return await work();
+    } finally {
+      await this.page.evaluate(() => void Reflect.deleteProperty(window, 'isSeen'));
+    }
+  }
+
   /** The picture of the stage only, without the messages over it, which come and go. */
   async picture(): Promise<Buffer> {
     const show = (visibility: string): Promise<void> =>
       this.page.evaluate((value) => document.querySelector<HTMLElement>('.toasts')?.style.setProperty('visibility', value), visibility);
     await show('hidden');
-    const picture = await this.page.locator('canvas.canvas').screenshot();
+    const picture = await this.seen(() => this.page.locator('canvas.canvas').screenshot());
     await show('visible');
     return picture;
   }
@@ -334,11 +384,12 @@ export class StudioPage {
     }, position);
   }
 
-  /** Saves a screenshot of the whole page for inspection by people. */
+  /** Saves a screenshot of the whole page for inspection by people, if they asked for it. */
   async keep(name: string): Promise<void> {
+    if (!keepsPictures && process.env['SEMBLANTE_PICTURES'] !== '1') return;
     const folder = join(buildDir, 'screenshots');
     mkdirSync(folder, { recursive: true });
-    await this.page.screenshot({ path: join(folder, `${name}.png`) });
+    await this.seen(() => this.page.screenshot({ path: join(folder, `${name}.png`) }));
   }
 
   close(): Promise<void> {
@@ -354,7 +405,8 @@ export interface Inside {
       markers: {
         project(position: readonly number[], camera: unknown, width: number, height: number): { x: number; y: number };
       };
-      stage: { camera: { position: { toArray(): number[] } }; framesPerSecond: number; drawn: number };
+      stage: { camera: { position: { toArray(): number[] } }; framesPerSecond: number; drawn: number; invalidate(): void; drawEnvironment(): void };
+      twin: { stage: Inside['semblante']['scene']['stage'] } | null;
       face: {
         mesh: { vertexCount: number; rowOffsets: Uint32Array; rowWeights: Float32Array };
         object: { visible: boolean };
