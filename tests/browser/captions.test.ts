@@ -5,9 +5,10 @@ import { join } from 'node:path';
 import type { Page } from 'playwright-core';
 import { afterEach, expect, test } from 'vitest';
 import { untilFace } from './support/face_page.ts';
+import { writesPictures } from './support/looks.ts';
 import { eventually, patience } from './support/patience.ts';
 import { buildDir, root } from './support/paths.ts';
-import { StudioPage } from './support/studio_page.ts';
+import { leaveOutDraws, StudioPage } from './support/studio_page.ts';
 import { browser, server, useStudio } from './support/suite.ts';
 
 /** The voice of tones says each word in a row of tones, with 150 ms of silence after each. An emoji is for the face, not for the words. */
@@ -137,6 +138,7 @@ async function expectWords(page: Page, picture: string): Promise<{ after: number
 const isInStep = ({ after, frame }: { after: number; frame: number }): boolean => after > -tolerance && after - frame < tolerance;
 
 async function keep(page: Page, name: string): Promise<void> {
+  if (!writesPictures) return;
   const folder = join(buildDir, 'screenshots');
   mkdirSync(folder, { recursive: true });
   await page.screenshot({ path: join(folder, `${name}.png`) });
@@ -145,6 +147,7 @@ async function keep(page: Page, name: string): Promise<void> {
 test('PageOfAStream_CaptionsButton_ShowsWordsInStepWithTheSound_AndIsRemembered', async () => {
   await createStream();
   const context = await browser.newContext({ viewport: { width: 390, height: 844 }, deviceScaleFactor });
+  if (!writesPictures) await leaveOutDraws(context);
   context.setDefaultTimeout(patience);
   const page = await context.newPage();
   const hellos: Buffer[] = [];
@@ -198,7 +201,7 @@ test('Studio_SwitchInLive_ShowsWords_AndIsRemembered', async () => {
   await createStream();
   const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, reducedMotion: 'reduce', deviceScaleFactor });
   await context.addInitScript(watch);
-  const studio = await StudioPage.openIn(context, `${server.url}/#sample/live?stream=talk`);
+  const studio = await StudioPage.openIn(context, `${server.url}/#sample/live?stream=talk`, { seen: writesPictures });
   const { page } = studio;
   await studio.waitForStage('ready');
   const captions = page.getByRole('switch', { name: 'Captions' });

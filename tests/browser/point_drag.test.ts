@@ -31,22 +31,19 @@ const camera = (studio: StudioPage): Promise<number[]> =>
 const apart = (a: Spot, b: Spot): number => Math.hypot(a.x - b.x, a.y - b.y);
 
 /** The loupe on the page: its middle, its radius, the stage around it, and how much of it is drawn. */
-async function loupe(studio: StudioPage): Promise<Spot & { radius: number; inside: boolean; drawn: number }> {
-  const { page } = studio;
+async function loupe({ page }: StudioPage): Promise<Spot & { radius: number; inside: boolean; drawn: number }> {
   await page.locator('.loupe canvas').waitFor();
-  return studio.seen(() =>
-    page.evaluate(() => {
-      const element = document.querySelector<HTMLElement>('.loupe')!;
-      const box = element.getBoundingClientRect();
-      const stage = document.querySelector('canvas.canvas')!.getBoundingClientRect();
-      const canvas = element.querySelector('canvas')!;
-      const { data } = canvas.getContext('2d')!.getImageData(0, 0, canvas.width, canvas.height);
-      let opaque = 0;
-      for (let i = 3; i < data.length; i += 4) opaque += data[i]! > 250 ? 1 : 0;
-      const inside = box.left >= stage.left && box.right <= stage.right && box.top >= stage.top && box.bottom <= stage.bottom;
-      return { x: box.left + box.width / 2, y: box.top + box.height / 2, radius: box.width / 2, inside, drawn: (opaque * 4) / data.length };
-    }),
-  );
+  return page.evaluate(() => {
+    const element = document.querySelector<HTMLElement>('.loupe')!;
+    const box = element.getBoundingClientRect();
+    const stage = document.querySelector('canvas.canvas')!.getBoundingClientRect();
+    const canvas = element.querySelector('canvas')!;
+    const { data } = canvas.getContext('2d')!.getImageData(0, 0, canvas.width, canvas.height);
+    let opaque = 0;
+    for (let i = 3; i < data.length; i += 4) opaque += data[i]! > 250 ? 1 : 0;
+    const inside = box.left >= stage.left && box.right <= stage.right && box.top >= stage.top && box.bottom <= stage.bottom;
+    return { x: box.left + box.width / 2, y: box.top + box.height / 2, radius: box.width / 2, inside, drawn: (opaque * 4) / data.length };
+  });
 }
 
 /** The point is chosen by its address, and the camera has arrived in front of it. */
@@ -61,7 +58,7 @@ const unsaved = async ({ page }: StudioPage): Promise<string> => page.locator('.
 
 describe('drag of a point', () => {
   test('Drag_Mouse_MovesThePointOverTheSkinUnderALoupe_InOneStep', async () => {
-    const studio = await StudioPage.open(browser, `${server.url}/#sample/points?point=8.1`, { width: 1440, height: 900 });
+    const studio = await StudioPage.open(browser, `${server.url}/#sample/points?point=8.1`, { width: 1440, height: 900, seen: true });
     const { page } = studio;
     await openAt(studio, '8.1');
     const eye = await camera(studio);
@@ -121,7 +118,7 @@ describe('drag of a point', () => {
   });
 
   test('Drag_Finger_SeesThePointBesideIt_AndASecondFingerMeansTheView', async () => {
-    const studio = await StudioPage.open(browser, `${server.url}/#sample/points?point=8.1`, { ...phone, dark: true });
+    const studio = await StudioPage.open(browser, `${server.url}/#sample/points?point=8.1`, { ...phone, dark: true, seen: true });
     const { page } = studio;
     await openAt(studio, '8.1');
     const session = await studio.context.newCDPSession(page);

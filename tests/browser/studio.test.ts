@@ -106,7 +106,7 @@ describe('studio', () => {
   });
 
   test('Studio_GraphicsContextLost_IsDrawnAgain', async () => {
-    const studio = await StudioPage.open(browser, server.url, { allowed: /Context Lost/ });
+    const studio = await StudioPage.open(browser, server.url, { allowed: /Context Lost/, seen: true });
     await studio.waitForStage('ready');
     const before = await studio.pictureAtRest();
     const context = await studio.page.evaluateHandle(() => {

@@ -4,7 +4,7 @@ import { afterEach, expect, test } from 'vitest';
 import { untilFace } from './support/face_page.ts';
 import { patience } from './support/patience.ts';
 import { root } from './support/paths.ts';
-import { coarse } from './support/studio_page.ts';
+import { coarse, leaveOutDraws } from './support/studio_page.ts';
 import { browser, server, useStudio } from './support/suite.ts';
 
 /** The page of a stream whose text the browser's own voice says. The server's voice, of tones, gives the times. */
@@ -59,6 +59,7 @@ const ask = (method: string, path: string, body?: object): Promise<Response> =>
 async function open(given: { language: string; dumb: boolean } | null): Promise<{ page: Page; got: (type: number) => number; sent: (type: number) => number; bytes: () => number }> {
   expect((await ask('POST', '/v1/streams', { name: 'talk', model: 'sample' })).status).toBe(201);
   const context = await browser.newContext({ viewport: { width: 390, height: 844 }, deviceScaleFactor: coarse });
+  await leaveOutDraws(context);
   context.setDefaultTimeout(patience);
   const page = await context.newPage();
   if (given) await page.addInitScript(voice, given);

@@ -29,4 +29,7 @@ const variants = [...usual, 'wide-dark-pt', 'phone-light-en'];
 /** Every screen in every look is kept as a picture, to be looked at by people. */
 export const keepsPictures = process.env['SEMBLANTE_SCREENS'] === 'all';
 
+/** The other tests keep pictures for people too. */
+export const writesPictures = keepsPictures || process.env['SEMBLANTE_PICTURES'] === '1';
+
 export const looks = every.filter(({ name }) => keepsPictures || (everyVariant ? variants : usual).includes(name));

@@ -1,7 +1,7 @@
 import { mkdirSync, readFileSync } from 'node:fs';
 import { basename, join } from 'node:path';
 import { chromium as driver, type Browser, type BrowserContext, type BrowserContextOptions, type Page } from 'playwright-core';
-import { keepsPictures } from './looks.ts';
+import { writesPictures } from './looks.ts';
 import { buildDir, chromium } from './paths.ts';
 import { eventually, patience, within } from './patience.ts';
 
@@ -80,6 +80,9 @@ function drawUnseen(): void {
   }
 }
 
+/** Pages of this context call WebGL 2 and draw nothing. For pages that are not the studio and whose pictures are not looked at. */
+export const leaveOutDraws = (context: BrowserContext): Promise<void> => context.addInitScript(drawUnseen);
+
 /** Pages of this context draw seldom and few pixels: see `OpenOptions.lively`. For pages that are not the studio. */
 export function calmDown(context: BrowserContext): Promise<void> {
   return context.addInitScript(() => {
@@ -154,7 +157,7 @@ export class StudioPage {
     const isCalm = !(options.lively ?? usual.lively) && !options.sharp;
     const isUnseen = !(options.seen ?? !isCalm);
     if (isCalm) await calmDown(context);
-    if (isUnseen) await context.addInitScript(drawUnseen);
+    if (isUnseen) await leaveOutDraws(context);
     const page = await context.newPage();
     // Playwright's timeout is not for scripts: one that waits in the page for what never comes would wait without end.
     const evaluate = page.evaluate.bind(page) as (script: unknown, argument?: unknown) => Promise<unknown>;
@@ -386,7 +389,7 @@ export class StudioPage {
 
   /** Saves a screenshot of the whole page for inspection by people, if they asked for it. */
   async keep(name: string): Promise<void> {
-    if (!keepsPictures && process.env['SEMBLANTE_PICTURES'] !== '1') return;
+    if (!writesPictures) return;
     const folder = join(buildDir, 'screenshots');
     mkdirSync(folder, { recursive: true });
     await this.seen(() => this.page.screenshot({ path: join(folder, `${name}.png`) }));
