@@ -3,10 +3,14 @@
 #include <cmath>
 #include <optional>
 
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec3.hpp>
 #include <nlohmann/json.hpp>
 
 #include "core/anatomy/point_lookup.h"
 #include "core/anatomy/rim_sides.h"
+#include "core/frame/frame_guess.h"
 #include "core/json/json_pointer.h"
 #include "core/parametrize/fapu.h"
 #include "core/propose/propose.h"
@@ -29,9 +33,10 @@ bool is_one_of(const JsonBody& value, const std::array<std::string_view, N>& nam
   return value.is_string() && std::find(names.begin(), names.end(), value.get<std::string>()) != names.end();
 }
 
-/// Reads one entry of "points"; adds its errors to `faults`.
+/// Reads one entry of "points"; adds its errors to `faults`. `turn`: from the axes of its position to the model's.
 std::optional<store::FeaturePointRecord> read_point(const std::string& id, const JsonBody& value,
-                                                    std::uint32_t vertices, std::vector<http::Fault>& faults) {
+                                                    std::uint32_t vertices, const std::optional<glm::dmat3>& turn,
+                                                    std::vector<http::Fault>& faults) {
   const auto at = std::string("/points/").append(pointer_segment(id));
   const auto fault = [&](const std::string& where, std::string detail) {
     faults.push_back({at + where, std::move(detail)});
@@ -51,14 +56,17 @@ std::optional<store::FeaturePointRecord> read_point(const std::string& id, const
   if (value.contains("position") && !value["position"].is_null()) {
     const auto& position = value["position"];
     if (!position.is_array() || position.size() != 3) return fault("/position", "it must be three numbers");
-    std::array<double, 3> xyz{};
-    for (std::size_t i = 0; i < 3; ++i) {
+    glm::dvec3 xyz(0.0);
+    for (int i = 0; i < 3; ++i) {
       if (!position[i].is_number()) return fault("/position/" + std::to_string(i), "it must be a number");
       xyz[i] = position[i].get<double>();
+    }
+    if (turn) xyz = *turn * xyz;
+    for (int i = 0; i < 3; ++i) {
       if (!std::isfinite(xyz[i]) || std::abs(xyz[i]) > 3e38)
         return fault("/position/" + std::to_string(i), "it is not a finite coordinate");
     }
-    point.position = xyz;
+    point.position = {xyz.x, xyz.y, xyz.z};
   }
   if (!point.vertex && !point.position) return fault("", "it has neither a vertex nor a position");
   const bool says = value.contains("proposed") && !value["proposed"].is_null();
@@ -92,13 +100,13 @@ std::optional<store::FeaturePointRecord> read_point(const std::string& id, const
 }
 
 /// Reads "points" into `points`: replaces those that are given and, where `removes`, removes those that are null.
-void read_points(const JsonBody& body, std::uint32_t vertices, bool removes,
+void read_points(const JsonBody& body, std::uint32_t vertices, bool removes, const std::optional<glm::dmat3>& turn,
                  std::vector<store::FeaturePointRecord>& points) {
   if (!body["points"].is_object()) refuse("invalid-field", "it must be an object", "/points");
   std::vector<http::Fault> faults;
   for (const auto& [id, value] : body["points"].items()) {
     const bool is_removed = removes && value.is_null() && parse_feature_point(id);
-    auto point = is_removed ? std::nullopt : read_point(id, value, vertices, faults);
+    auto point = is_removed ? std::nullopt : read_point(id, value, vertices, turn, faults);
     if (faults.size() == max_faults) break;
     std::erase_if(points, [&id = id](const auto& p) { return p.id == id; });
     if (point) points.push_back(std::move(*point));
@@ -112,13 +120,30 @@ void read_points(const JsonBody& body, std::uint32_t vertices, bool removes,
             [](const auto& a, const auto& b) { return *parse_feature_point(a.id) < *parse_feature_point(b.id); });
 }
 
-/// A file of feature points may state its axes and the base of its vertex indices. The server does not convert them: it
-/// refuses other axes and bases, instead of making a wrong face without notice.
-void refuse_other_frames(const JsonBody& body) {
-  static const JsonBody identity = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
-  if (body.contains("to_mpeg4_axes") && !body["to_mpeg4_axes"].is_null() && body["to_mpeg4_axes"] != identity)
-    refuse("invalid-field", "only models in MPEG-4's axes are accepted: +X to the face's left, +Y up, +Z out of it",
-           "/to_mpeg4_axes");
+/// A file of feature points that states its axes ("to_mpeg4_axes") has its positions in those of the model's file: the
+/// rotation from them to the model's, empty if it states none. The stated axes are not used, because the points show
+/// how the head stands.
+std::optional<glm::dmat3> turn_of_positions(const JsonBody& body, const store::ModelRecord& model) {
+  if (!body.contains("to_mpeg4_axes") || body["to_mpeg4_axes"].is_null()) return std::nullopt;
+  const auto& rows = body["to_mpeg4_axes"];
+  const auto is_row = [](const JsonBody& row) {
+    return row.is_array() && row.size() == 3 &&
+           std::all_of(row.begin(), row.end(), [](const JsonBody& number) { return number.is_number(); });
+  };
+  if (!rows.is_array() || rows.size() != 3 || !std::all_of(rows.begin(), rows.end(), is_row))
+    refuse("invalid-field", "it must have 3 rows of 3 numbers", "/to_mpeg4_axes");
+  glm::dmat3 axes(0.0);
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) axes[column][row] = rows[row][column].get<double>();
+  }
+  if (!(glm::determinant(axes) > 0.0))
+    refuse("invalid-field", "it mirrors the model or has no inverse, which is not accepted", "/to_mpeg4_axes");
+  return model.frame ? turn_upright(*model.frame) : glm::dmat3(1.0);
+}
+
+/// A file of feature points may state the base of its vertex indices. The server does not convert them: it refuses
+/// another base, instead of making a wrong face without notice.
+void refuse_other_base(const JsonBody& body) {
   if (body.contains("vertex_index_base") && body["vertex_index_base"] != 0)
     refuse("invalid-field", "it must be 0: vertices count from 0", "/vertex_index_base");
 }
@@ -200,10 +225,10 @@ http::Response get_feature_points(Context& context, http::Request& request) {
 http::Response put_feature_points(Context& context, http::Request& request) {
   const auto model = editable_model(context, request);
   const auto body = body_object(request);
-  refuse_other_frames(body);
+  refuse_other_base(body);
   if (!body.contains("points")) refuse("invalid-field", "the field \"points\" is missing", "/points");
   std::vector<store::FeaturePointRecord> points;
-  read_points(body, model.vertices, false, points);
+  read_points(body, model.vertices, false, turn_of_positions(body, model), points);
   std::optional<store::FapuByUser> fapu;  // of a client that does not know them they stay as they are
   if (body.contains("fapu")) read_fapu(body["fapu"], false, fapu.emplace());
   if (const auto fill = request.query_value("fill")) {
@@ -218,7 +243,7 @@ http::Response patch_feature_points(Context& context, http::Request& request) {
   const auto body = body_object(request);
   refuse_unknown_members(body, body_members::feature_points_edit);
   auto points = context.store.feature_points(model.id);
-  if (body.contains("points")) read_points(body, model.vertices, true, points);
+  if (body.contains("points")) read_points(body, model.vertices, true, std::nullopt, points);
   std::optional<store::FapuByUser> fapu;
   if (body.contains("fapu")) read_fapu(body["fapu"], true, fapu.emplace(model.fapu));
   return store_points(context, request, model, points, fapu);

@@ -89,16 +89,30 @@ TEST_F(BadInput, Pointers_EscapeWhatNamesHold) {
       "/roles/0~11");
 }
 
-/// Points of a model that stands otherwise would make a face that is wrong without a sign.
-TEST_F(BadInput, PointsOfAnotherFrame_AreRefused) {
+/// `semblante propose` writes the axes of a head that it has turned upright: its positions are those of the file.
+TEST_F(BadInput, PointsWithAxes_AreInThoseOfTheModelsFile) {
   const auto model = import_grid(port());
-  const std::string points = R"("points":{"2.1":{"vertex":4}})";
-  EXPECT_TRUE(put(model, R"({"to_mpeg4_axes":[[1,0,0],[0,1,0],[0,0,1]],"vertex_index_base":0,)" + points + "}")
-                  .contains("points"));
-  const auto turned = put(model, R"({"to_mpeg4_axes":[[1,0,0],[0,0,1],[0,-1,0]],)" + points + "}");
-  EXPECT_EQ(turned["type"], "/problems/invalid-field");
-  EXPECT_EQ(turned["pointer"], "/to_mpeg4_axes");
-  EXPECT_EQ(put(model, R"({"vertex_index_base":1,)" + points + "}")["pointer"], "/vertex_index_base");
+  const std::string points = R"("points":{"2.1":{"position":[-1,1,0]}}})";  // vertex 12 of the file
+  const auto as_is = put(model, "{" + points);
+  EXPECT_EQ(as_is["points"]["2.1"], (json{{"vertex", 12}, {"position", {-1.0, 1.0, 0.0}}}));
+  EXPECT_EQ(put(model, R"({"to_mpeg4_axes":[[1,0,0],[0,1,0],[0,0,1]],"vertex_index_base":0,)" + points), as_is);
+
+  const auto turned = request(port(), "PATCH", "/v1/models/" + model, R"({"frame":{"up":"+Z","front":"-Y"}})",
+                              {{"Content-Type", "application/merge-patch+json"}});
+  ASSERT_EQ(turned.status, 202) << turned.body;
+  const auto location = turned.headers.at("location");
+  EXPECT_EQ(wait_for_job(port(), location.substr(location.rfind('/') + 1))["state"], "done");
+  const std::string axes = R"({"to_mpeg4_axes":[[1,0,0],[0,0,1],[0,-1,0]],)";
+  EXPECT_EQ(put(model, axes + points)["points"]["2.1"], (json{{"vertex", 12}, {"position", {-1.0, 0.0, -1.0}}}));
+  EXPECT_TRUE(put(model, "{" + points)["points"]["2.1"]["vertex"].is_null()) << "it is in the axes of the model";
+
+  for (const char* const refused : {"[[1,0,0],[0,1,0]]", "[[1,0,0],[0,1,0],[0,0]]", "[[-1,0,0],[0,1,0],[0,0,1]]",
+                                    "[[1,0,0],[1,0,0],[0,0,1]]", "7"}) {
+    const auto answer = put(model, std::string(R"({"to_mpeg4_axes":)") + refused + "," + points);
+    EXPECT_EQ(answer["type"], "/problems/invalid-field") << refused;
+    EXPECT_EQ(answer["pointer"], "/to_mpeg4_axes") << refused;
+  }
+  EXPECT_EQ(put(model, R"({"vertex_index_base":1,)" + points)["pointer"], "/vertex_index_base");
 }
 
 /// As many points as anything asks for, on vertices of import_grid's model.

@@ -104,8 +104,8 @@ export const portugueseDetails: Sentences = {
   'the placed points are on one line or at one place, so the orientation of the head cannot be determined':
     'os pontos marcados estão numa linha ou num lugar só, e não se sabe como a cabeça está orientada',
   'sets the axes of the model, so up and front cannot be set as well': 'define os eixos do modelo, e por isso cima e frente não podem ser definidos também',
-  "only models in MPEG-4's axes are accepted: +X to the face's left, +Y up, +Z out of it":
-    'só são aceitos modelos nos eixos do MPEG-4: +X para a esquerda do rosto, +Y para cima, +Z para fora dele',
+  'it must have 3 rows of 3 numbers': 'deve ter 3 linhas de 3 números',
+  'it mirrors the model or has no inverse, which is not accepted': 'espelha o modelo ou não tem inversa, o que não é aceito',
   'this is not a unit that depends on the face: IRISD, ES, ENS, MNS or MW': 'não é uma unidade que depende do rosto: IRISD, ES, ENS, MNS ou MW',
   '{unit} must be a length in model units, from 1e-6 to 1e6': '{unit} deve ser um comprimento em unidades do modelo, de 1e-6 a 1e6',
 

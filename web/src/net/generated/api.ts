@@ -1908,7 +1908,7 @@ export interface components {
             fapu?: {
                 [key: string]: number;
             } | null;
-            /** @description As files of feature points have it; taken when it is the identity, as the model must stand in MPEG-4's axes */
+            /** @description As files of feature points have it, a matrix by rows: the positions are then in the axes of the model's file, and not in those of the model. Its values are not used, since the points show how the head stands; one that mirrors is refused */
             to_mpeg4_axes?: components["schemas"]["Vector"][] | null;
             /** @constant */
             vertex_index_base?: 0;
