@@ -19,6 +19,9 @@ class Socket {
   Socket(Socket&& other) noexcept;
   Socket& operator=(Socket&& other) noexcept;
 
+  /// Far longer than anything takes on a busy machine: what is not done by then does not come.
+  static constexpr std::chrono::milliseconds patience{120'000};
+
   [[nodiscard]] int get() const { return descriptor_; }
   [[nodiscard]] bool open() const { return descriptor_ >= 0; }
   void close();
@@ -45,8 +48,6 @@ class Socket {
   [[nodiscard]] bool send_all_in_time(std::string_view bytes, std::chrono::milliseconds limit = patience) const;
 
  private:
-  static constexpr std::chrono::milliseconds patience{120'000};
-
   [[nodiscard]] ssize_t failed(int result) const;
   [[nodiscard]] bool wait(short events, std::chrono::milliseconds limit) const;
 
