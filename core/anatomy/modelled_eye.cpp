@@ -139,7 +139,7 @@ ModelledEyes find_modelled_eyes(const Surface& surface, std::span<const Triangle
   for (std::size_t eye = 0; eye < eyes.size(); ++eye) {
     const PartRole role = eye == 0 ? PartRole::left_eye : PartRole::right_eye;
     if (std::any_of(parts.begin(), parts.end(), [role](const Part& part) { return part.role == role; })) continue;
-    eyes[eye] = find_modelled_eye(surface, triangles, points, mpeg4::openings[1 + eye]);
+    eyes[eye] = find_modelled_eye(surface, triangles, points, mpeg4::lids_of(eye));
   }
   return eyes;
 }

@@ -14,7 +14,7 @@ namespace semblante {
 namespace {
 
 /// Of an opening that is no mouth: 0 left, 1 right.
-std::size_t eye_of(const Opening& opening) { return &opening == &openings[1] ? 0 : 1; }
+std::size_t eye_of(const Opening& opening) { return &opening == &lids_of(0) ? 0 : 1; }
 
 /// How far lids of one skin close before it folds, as a share of their distance; of lids that roll.
 std::optional<double> closed_share(const Subject& head, const Opening& opening) {

@@ -37,7 +37,7 @@ std::vector<Finding> find_points_off_lid_edge(const Subject& head) {
   std::vector<Finding> findings;
   const std::vector<SurfacePoint> points = surface_points(head.surface, head.rig.points);
   for (const std::size_t eye : {0U, 1U}) {
-    const mpeg4::Opening& opening = mpeg4::openings[1 + eye];
+    const mpeg4::Opening& opening = mpeg4::lids_of(eye);
     const SurfacePoint* const upper = point_named(points, opening.upper.front());
     const SurfacePoint* const lower = point_named(points, opening.lower.front());
     if (upper == nullptr || lower == nullptr || upper->position.y <= lower->position.y) continue;

@@ -8,6 +8,7 @@
 
 namespace semblante {
 
+using mpeg4::lids_of;
 using mpeg4::Opening;
 using mpeg4::openings;
 

@@ -78,7 +78,7 @@ RigidMotion rigid_motion_of(PartRole role) {
 /// Lids of one skin close as far as it does not fold over; what they have to close is never nothing.
 void stop_joined_lids(const Model& model, const Surface& surface, const std::vector<SurfacePoint>& points,
                       std::size_t eye, Rig& rig) {
-  const mpeg4::Opening& opening = mpeg4::openings[1 + eye];
+  const mpeg4::Opening& opening = mpeg4::lids_of(eye);
   if (!rig.lids[eye] || !are_joined(surface, opening, points)) return;
   Heights heights{};
   heights[parse_feature_point(opening.upper.front())->value()] = -rig.lids[eye]->opening;
@@ -98,7 +98,7 @@ class BallFront {
       : influence_(rig.influence),
         pivot_(eye == 0 ? rig.left_eye_pivot : rig.right_eye_pivot),
         reach_((1.0 + near_ball) * *std::max_element(rig.lids[eye]->ball.begin(), rig.lids[eye]->ball.end())) {
-    const auto& names = mpeg4::openings[1 + eye].corners;
+    const auto& names = mpeg4::lids_of(eye).corners;
     std::transform(names.begin(), names.end(), std::back_inserter(corners_),
                    [](std::string_view name) { return *parse_feature_point(name); });
   }

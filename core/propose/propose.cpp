@@ -36,11 +36,12 @@ constexpr double marking_noise = 0.015;  ///< standard deviation of a marked poi
 constexpr double mirror_noise = 0.02;    ///< standard deviation of the mirror image of a marked point
 constexpr double surely = 0.12;          ///< largest claimed radius of `high` confidence
 constexpr double about = 0.26;           ///< largest claimed radius of `medium` confidence
-/// About an eye that is modelled in the skin: corners so near to where the lids are seen to meet stay; marked points
-/// are no farther from what is seen.
+// Of an eye that is modelled in the skin.
+/// A proposed corner stays if it is nearer than this to where the lids are seen to meet.
 constexpr double near_corner = 0.06;
+/// The edges that are seen are not those of this eye if they are farther than this from a marked point.
 constexpr double near_marked = 0.15;
-/// Middles of its lids are no farther beside the middle, as a share of the eye's width.
+/// The greatest distance of a point of a lid from the middle between the corners, as a share of the eye's width.
 constexpr double greatest_aside = 0.3;
 
 /// How far heads differ from each other beyond what their references tell, as a radius: measured on the proposals for
@@ -271,7 +272,7 @@ class Proposer {
     if (triangles_.empty()) return;
     for (std::size_t eye = 0; eye < 2; ++eye) {
       if (!face_.with_role(eye == 0 ? PartRole::left_eye : PartRole::right_eye).empty()) continue;
-      const mpeg4::Opening& lids = mpeg4::openings[1 + eye];
+      const mpeg4::Opening& lids = mpeg4::lids_of(eye);
       const auto& upper = settled_[index_of(lids.upper.front())];
       const auto& lower = settled_[index_of(lids.lower.front())];
       const auto& left = settled_[index_of(lids.corners[0])];

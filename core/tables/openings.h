@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <span>
 #include <string_view>
 
@@ -80,5 +81,7 @@ inline constexpr std::array<Opening, 3> openings = {{
      false},
 }};
 inline constexpr const Opening& mouth = openings[0];
+/// `eye`: 0 the left one, 1 the right one.
+constexpr const Opening& lids_of(std::size_t eye) { return openings[1 + eye]; }
 
 }  // namespace semblante::mpeg4
