@@ -130,7 +130,7 @@ bool EyeSkin::grow_from(const glm::dvec3& at) {
   for (std::size_t grown = 0; grown != patch_.size(); ++rings) {
     if (rings == most_rings) return false;
     grown = patch_.size();
-    ball_ = ball_of(patch_);
+    ball_ = ball_of_patch();
     for (std::size_t k = 0; k < grown; ++k) {
       for (const std::size_t next : faces_[patch_[k]].beside) {
         if (of_eye_[next] || !continues(faces_[patch_[k]], faces_[next])) continue;
@@ -301,10 +301,10 @@ std::optional<std::size_t> EyeSkin::front_face(const glm::dvec3& at) const {
   return best;
 }
 
-std::optional<Sphere> EyeSkin::ball_of(std::span<const std::size_t> patch) const {
+std::optional<Sphere> EyeSkin::ball_of_patch() const {
   std::vector<SurfaceVertexId> vertices;
   glm::dvec3 normal(0.0);
-  for (const std::size_t f : patch) {
+  for (const std::size_t f : patch_) {
     vertices.insert(vertices.end(), faces_[f].corners.begin(), faces_[f].corners.end());
     normal += faces_[f].area * faces_[f].normal;
   }

@@ -119,8 +119,8 @@ class EyeSkin {
   [[nodiscard]] const glm::dvec3& place(SurfaceVertexId v) const { return places_[v.value()]; }
   /// The foremost triangle at a place, seen from the front.
   [[nodiscard]] std::optional<std::size_t> front_face(const glm::dvec3& at) const;
-  /// The ball through the corners of a patch; empty while it is small.
-  [[nodiscard]] std::optional<Sphere> ball_of(std::span<const std::size_t> patch) const;
+  /// The ball through the corners of the patch; empty while it is small.
+  [[nodiscard]] std::optional<Sphere> ball_of_patch() const;
   /// The share of the patch's outline at which the surface does not go on smoothly.
   [[nodiscard]] double grooved_share() const;
   /// Whether the eye goes on from one triangle to the next.
@@ -132,7 +132,7 @@ class EyeSkin {
   const EyeOpening& opening_;
   double width_;
   std::vector<Face> faces_;
-  std::vector<std::size_t> patch_;  ///< the faces of the eye
+  std::vector<std::size_t> patch_;  ///< the places in `faces_` of the triangles of the eye
   std::vector<bool> of_eye_;
   std::optional<Sphere> ball_;
 };

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -27,12 +28,13 @@ constexpr std::array<std::pair<double, double>, 11> beginnings = {{{0.0, 0.0},
                                                                    {-0.15, 0.12},
                                                                    {0.15, -0.12},
                                                                    {-0.15, -0.12}}};
-/// Sizes of an open eye, and of its height the share of its width.
+/// The width of an open eye, and its height as a share of its width.
 constexpr double least_width = 0.55;
 constexpr double greatest_width = 1.4;
 constexpr double least_height = 0.12;
 constexpr double greatest_height = 0.8;
-/// Lids step forward by this much within this way from the eye's end, in at least this share of all directions.
+/// From where the eye ends, the surface steps forward of its ball by `step_of_lid` within `way_of_step`: in at least
+/// the share `least_stepped` of all directions.
 constexpr double step_of_lid = 0.03;
 constexpr double way_of_step = 0.06;
 constexpr double least_stepped = 0.75;
@@ -40,8 +42,8 @@ constexpr int directions = 48;
 /// The inner corner of the lids is this far beyond the end of the eye, and lower: the caruncle is between them.
 constexpr double inner_corner = 0.09;
 constexpr double below_end = 0.04;
-/// The eye is not larger than this, as a multiple of width times height of the expected opening: a closed lid between
-/// its fold and its edge is.
+/// Greatest width times height of an eye, as a multiple of that of the expected opening: a larger patch is a closed
+/// lid, from its fold to its edge.
 constexpr double greatest_size = 1.2;
 
 LidPlaces window_of(const LidPlaces& expected, double width) {
@@ -111,7 +113,7 @@ class SeenPiece {
     const double way = way_of_step * width / view_.step;
     int stepped = 0;
     for (int k = 0; k < directions; ++k) {
-      const double angle = 2.0 * std::acos(-1.0) * k / directions;
+      const double angle = 2.0 * std::numbers::pi * k / directions;
       const auto at = [&](double r) {
         return std::pair(static_cast<int>(std::lround(x + r * std::cos(angle))),
                          static_cast<int>(std::lround(y + r * std::sin(angle))));

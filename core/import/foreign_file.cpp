@@ -66,7 +66,7 @@ std::string sentence(Kind kind, std::string_view title) {
   return {};
 }
 
-/// By the size that its first chunk has: two letters alone are too little to know it.
+/// A 3DS file begins with the letters MM and its own size. The letters alone may begin any file.
 bool is_3ds(std::span<const std::uint8_t> bytes) {
   if (bytes.size() < 6 || bytes[0] != 'M' || bytes[1] != 'M') return false;
   std::uint64_t size = 0;

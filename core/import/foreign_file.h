@@ -14,7 +14,7 @@ namespace semblante::import {
 /// download that failed) and pointers of Git LFS.
 std::optional<std::string> foreign_file(std::span<const std::uint8_t> bytes);
 
-/// The same of a zip without a model, by the names of its entries.
+/// What a zip without a model has in its place, and what to do, by the names of its entries; nullopt if none is known.
 std::optional<std::string> foreign_zip(const std::vector<std::string>& names);
 
 }  // namespace semblante::import

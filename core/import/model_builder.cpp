@@ -92,7 +92,8 @@ bool has_extent(const Model& model) {
 /// float32 keeps 24 bits of a coordinate. A scan in the coordinates of a map, thousands of kilometres from their
 /// origin, loses the shape of its face; empty if nothing that can be seen is lost.
 std::optional<std::string> lost_shape(const Model& model) {
-  constexpr double least_share = 1.0 / 2000.0;  // of the model, a step between coordinates: a lid is as thick
+  /// The step between two coordinates, as a share of the model's size: about the thickness of an eyelid.
+  constexpr double least_share = 1.0 / 2000.0;
   glm::dvec3 low(1e300);
   glm::dvec3 high(-1e300);
   for (const Triangle& triangle : model.triangles) {

@@ -28,7 +28,7 @@ class FaceSurface {
 
   [[nodiscard]] const Surface& surface() const { return surface_; }
   [[nodiscard]] const glm::dvec3& at(std::uint32_t vertex) const { return places_[vertex]; }
-  [[nodiscard]] const std::vector<glm::dvec3>& places() const { return places_; }  ///< #S
+  [[nodiscard]] const std::vector<glm::dvec3>& places() const { return places_; }  ///< #S, by vertex
   /// Whether the surface at a vertex faces forward (front_points.h), as the inner wall of a double surface does not
   /// behind the face. Always without triangles.
   [[nodiscard]] bool faces_forward_at(std::uint32_t vertex) const {

@@ -20,7 +20,7 @@ namespace {
 using testing::fp;
 
 constexpr double half_width = 0.21;  // of an eye, in ES0
-constexpr double higher = 0.07;      // the right eye is, than the left one
+constexpr double higher = 0.07;      // how much higher the right eye is than the left one, in ES0
 
 /// One skin: two balls of radius 1.2 in half widths of the eye, and lids that stand `step` before them.
 class Sculpture {
