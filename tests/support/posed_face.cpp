@@ -20,17 +20,15 @@ std::string read_text(const std::filesystem::path& file) {
 }
 
 template <typename T>
-T value_or_throw(const std::filesystem::path& file, Result<T> result) {
-  if (!result) throw std::runtime_error(file.string() + ": " + result.error().message);
+T value_or_throw(const std::string& of, Result<T> result) {
+  if (!result) throw std::runtime_error(of + ": " + result.error().message);
   return *std::move(result);
 }
 
 Rig parametrize_or_throw(const Head& head, WeightMethod method) {
   ParametrizeOptions options;
   options.weights = method;
-  auto rig = parametrize(head.model, head.surface, head.points, options);
-  if (!rig) throw std::runtime_error(head.name + ": " + rig.error().message);
-  return *std::move(rig);
+  return value_or_throw(head.name, parametrize(head.model, head.surface, head.points, options));
 }
 
 }  // namespace
@@ -43,10 +41,11 @@ Head sample_head() {
 
 Head read_head(const std::filesystem::path& model, const std::filesystem::path& points) {
   const std::string bytes = read_text(model);
-  auto imported = value_or_throw(model, import_head({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()},
-                                                    {model.filename().string(), std::nullopt, {}}));
-  auto file = value_or_throw(points, parse_feature_points(read_text(points)));
-  auto marked = value_or_throw(points, mark_by_file(std::move(imported), std::move(file)));
+  auto imported =
+      value_or_throw(model.string(), import_head({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()},
+                                                 {model.filename().string(), std::nullopt, {}}));
+  auto file = value_or_throw(points.string(), parse_feature_points(read_text(points)));
+  auto marked = value_or_throw(points.string(), mark_by_file(std::move(imported), std::move(file)));
   return {model.stem().string(), std::move(marked.model), std::move(marked.surface), std::move(marked.points)};
 }
 
