@@ -4,18 +4,14 @@
 #include <charconv>
 #include <optional>
 
-#include "server/cli/command_failure.h"
+#include "server/app/serve_failure.h"
 
 namespace semblante {
 namespace {
 
-[[noreturn]] void refuse_place(const std::string& message) {
-  throw CommandFailure(CommandFailure::bad_input, "serve: " + message);
-}
-
 std::string checked_address(std::string address, const std::string& option) {
   if (address == "localhost") address = "127.0.0.1";
-  if (!http::parse_address(address)) refuse_place(option + ": " + address + " is not an IP address");
+  if (!http::parse_address(address)) fail_serve(option + ": " + address + " is not an IP address");
   return address;
 }
 
@@ -29,7 +25,7 @@ net::Listener parse_place(const std::string& text, const std::string& option) {
   const char* const digits = colon == std::string::npos ? end : text.data() + colon + 1;
   const auto [rest, error] = std::from_chars(digits, end, place.port);
   if (digits == end || error != std::errc() || rest != end)
-    refuse_place(option + ": " + text + " is not ADDRESS:PORT, such as 0.0.0.0:443 or [::]:443");
+    fail_serve(option + ": " + text + " is not ADDRESS:PORT, such as 0.0.0.0:443 or [::]:443");
   place.address = checked_address(host, option);
   return place;
 }
@@ -40,7 +36,7 @@ bool is_loopback(const net::Listener& listener) { return http::is_loopback(*http
   const auto place =
       (listener.address.find(':') == std::string::npos ? listener.address : "[" + listener.address + "]") + ":" +
       std::to_string(listener.port);
-  refuse_place(
+  fail_serve(
       place +
       " can be reached from other machines: whoever is on the way could read and change everything, tokens too. "
       "Give it TLS and a token:\n"
@@ -60,18 +56,18 @@ Listening check_listening(const ListenOptions& options, const std::filesystem::p
   Listening listening;
   for (const auto& text : options.proxies) {
     const auto range = http::AddressRange::parse(text);
-    if (!range) refuse_place("--trusted-proxy: " + text + " is no address or range, such as 10.0.0.1 or 10.0.0.0/8");
+    if (!range) fail_serve("--trusted-proxy: " + text + " is no address or range, such as 10.0.0.1 or 10.0.0.0/8");
     listening.proxies.push_back(*range);
   }
   if (options.certificate.empty() != options.key.empty())
-    refuse_place("--tls-cert and --tls-key are given together: the certificate and its private key");
+    fail_serve("--tls-cert and --tls-key are given together: the certificate and its private key");
   listening.tls = !options.certificate.empty();
   for (const auto& text : options.listen) listening.listeners.push_back(parse_place(text, "--listen"));
   if (listening.listeners.empty())
     listening.listeners.push_back({checked_address(options.address, "--address"), options.port, false});
   for (auto& listener : listening.listeners) listener.tls = listening.tls;
   if (!options.redirects.empty() && !listening.tls)
-    refuse_place("--http-redirect needs --tls-cert and --tls-key: there is no https to redirect to");
+    fail_serve("--http-redirect needs --tls-cert and --tls-key: there is no https to redirect to");
   listening.is_public =
       !listening.proxies.empty() || !std::all_of(listening.listeners.begin(), listening.listeners.end(), is_loopback);
   for (const auto& listener : listening.listeners)

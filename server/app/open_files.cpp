@@ -5,7 +5,7 @@
 
 #include <sys/resource.h>
 
-#include "server/cli/command_failure.h"
+#include "server/app/serve_failure.h"
 #include "server/log/log.h"
 
 namespace semblante {
@@ -42,9 +42,8 @@ OpenFiles open_files_to_serve(std::uint64_t wanted) {
     may_open = files.rlim_cur;
   }
   if (may_open < fewest)
-    throw CommandFailure(CommandFailure::bad_input, "serve: the process may have " + std::to_string(may_open) +
-                                                        " files open (ulimit -Hn), and a server needs " +
-                                                        std::to_string(fewest));
+    fail_serve("the process may have " + std::to_string(may_open) + " files open (ulimit -Hn), and a server needs " +
+               std::to_string(fewest));
   const auto divided = divide_open_files(may_open, wanted);
   if (wanted > divided.connections)
     log::warning("--max-connections: the process may have " + std::to_string(may_open) +

@@ -12,7 +12,7 @@
 #include "protocol/hash/sha256.h"
 #include "server/api/new_model.h"
 #include "server/api/new_parametrization.h"
-#include "server/cli/command_failure.h"
+#include "server/app/serve_failure.h"
 #include "server/log/log.h"
 
 namespace semblante {
@@ -28,10 +28,10 @@ std::string read_text(const std::filesystem::path& path) {
   errno = 0;
   if (!is_other) stream.open(path, std::ios::binary);
   if (!stream.is_open() || is_folder)
-    throw CommandFailure(CommandFailure::bad_input, "serve: --sample: " + path.string() + " cannot be read: " +
-                                                        (is_folder  ? "it is a folder; name the file of a model in it"
-                                                         : is_other ? "it is no file"
-                                                                    : std::strerror(errno)));
+    fail_serve("--sample: " + path.string() + " cannot be read: " +
+               (is_folder  ? "it is a folder; name the file of a model in it"
+                : is_other ? "it is no file"
+                           : std::strerror(errno)));
   return {(std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>()};
 }
 
