@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/anatomy/flat_iris.h"
 #include "core/anatomy/point_lookup.h"
 #include "core/anatomy/pupil_hole.h"
 #include "core/geometry/triangle_shape.h"
@@ -24,70 +25,6 @@ Polar seen_along(const glm::dvec3& axis, const glm::dvec3& pivot, const glm::dve
   const glm::dvec3 d = place - pivot;
   const double along = glm::dot(d, axis);
   return {glm::length(d - along * axis), along};
-}
-
-/// The centre of the flat regular polygon with the corner `marked` at the front of an eye; nullopt if there is none.
-std::optional<glm::dvec3> middle_of_flat_face(const Model& model, const Surface& surface, SurfaceVertexId marked,
-                                              const glm::dvec3& axis) {
-  constexpr double flat = 0.9945;            // cosine of six degrees: files may have only three decimals
-  constexpr std::size_t most_corners = 256;  // of a face, and facets at the marked vertex
-  struct Facet {
-    std::array<SurfaceVertexId, 3> corners;
-    glm::dvec3 normal;
-  };
-  std::vector<Facet> front;  // that face in about the same direction as the eye
-  for (const Triangle& triangle : model.triangles) {
-    Facet facet;
-    for (std::size_t i = 0; i < 3; ++i) facet.corners[i] = surface.surface_of[triangle[i]];
-    if (surface.part_of[facet.corners[0].value()] != surface.part_of[marked.value()]) continue;
-    const auto at = [&](std::size_t i) -> const glm::dvec3& { return surface.positions[facet.corners[i].value()]; };
-    const glm::dvec3 normal = area_vector(at(0), at(1), at(2));
-    const double size = glm::length(normal);
-    if (!(size > 0.0) || glm::dot(normal, axis) < 0.8 * size) continue;
-    facet.normal = normal / size;
-    front.push_back(facet);
-  }
-  const auto has = [](const Facet& facet, SurfaceVertexId v) {
-    return std::find(facet.corners.begin(), facet.corners.end(), v) != facet.corners.end();
-  };
-  const auto face_of = [&](const Facet& seed) -> std::optional<glm::dvec3> {
-    std::vector<SurfaceVertexId> corners(seed.corners.begin(), seed.corners.end());
-    for (bool grown = true; grown;) {
-      grown = false;
-      for (const Facet& facet : front) {
-        if (glm::dot(facet.normal, seed.normal) < flat) continue;
-        const auto known = [&](SurfaceVertexId v) {
-          return std::find(corners.begin(), corners.end(), v) != corners.end();
-        };
-        const auto count = std::count_if(facet.corners.begin(), facet.corners.end(), known);
-        if (count != 2) continue;
-        for (const SurfaceVertexId v : facet.corners) {
-          if (!known(v)) corners.push_back(v);
-        }
-        if (corners.size() > most_corners) return std::nullopt;
-        grown = true;
-      }
-    }
-    if (corners.size() < 5) return std::nullopt;
-    glm::dvec3 middle(0.0);
-    for (const SurfaceVertexId v : corners) middle += surface.positions[v.value()];
-    middle /= static_cast<double>(corners.size());
-    double mean = 0.0;
-    for (const SurfaceVertexId v : corners) mean += glm::distance(surface.positions[v.value()], middle);
-    mean /= static_cast<double>(corners.size());
-    for (const SurfaceVertexId v : corners) {
-      // A vertex in the middle, or not a regular ring: keeps the marked point.
-      if (std::abs(glm::distance(surface.positions[v.value()], middle) - mean) > 0.2 * mean) return std::nullopt;
-    }
-    return middle;
-  };
-  const auto around = std::count_if(front.begin(), front.end(), [&](const Facet& facet) { return has(facet, marked); });
-  if (static_cast<std::size_t>(around) > most_corners) return std::nullopt;
-  for (const Facet& facet : front) {
-    if (!has(facet, marked)) continue;
-    if (const auto middle = face_of(facet)) return middle;
-  }
-  return std::nullopt;
 }
 
 /// The vertices of one part of the eye within the iris, seen from the front.
@@ -147,6 +84,23 @@ double bend_of(const Surface& surface, const std::vector<SurfaceVertexId>& verti
   return std::clamp(bend, -1.0 / iris_radius, 1.0 / iris_radius);
 }
 
+/// Removes the outermost of several layers if it covers the middle of the iris: a ball with a hole for the iris does
+/// not.
+void remove_cornea(std::vector<Layer>& layers, const Surface& surface, const glm::dvec3& axis, const glm::dvec3& pivot,
+                   double iris_radius) {
+  if (layers.size() < 2) return;
+  const auto outermost = std::max_element(layers.begin(), layers.end(),
+                                          [](const Layer& a, const Layer& b) { return a.mean_along < b.mean_along; });
+  const bool covers_middle =
+      std::any_of(outermost->vertices.begin(), outermost->vertices.end(), [&](SurfaceVertexId v) {
+        return seen_along(axis, pivot, surface.positions[v.value()]).radius < 0.6 * iris_radius;
+      });
+  const bool is_over_all = std::all_of(layers.begin(), layers.end(), [&](const Layer& other) {
+    return &other == &*outermost || outermost->mean_along > other.mean_along;
+  });
+  if (covers_middle && is_over_all) layers.erase(outermost);
+}
+
 }  // namespace
 
 std::optional<IrisOfEye> find_iris(const Model& model, const Surface& surface, std::span<const Part> parts,
@@ -176,28 +130,14 @@ std::optional<IrisOfEye> find_iris(const Model& model, const Surface& surface, s
     middle = *hole;
   } else if (pupil->vertex) {
     const SurfaceVertexId marked = surface.surface_of[pupil->vertex->value()];
-    if (const auto better = middle_of_flat_face(model, surface, marked, direction())) middle = *better;
+    if (const auto better = middle_of_flat_iris(model, surface, marked, direction())) middle = *better;
   }
   const glm::dvec3 axis = direction();
 
   IrisOfEye found;
   found.shape.axis = glm::vec3(axis);
   std::vector<Layer> layers = layers_of(surface, parts, role, axis, center, radius);
-  // In front of another layer, and also in front of the middle of the iris: excludes a ball with a hole for the iris.
-  const auto lies_over = [&](const Layer& a, const Layer& b) {
-    const bool covers = std::any_of(a.vertices.begin(), a.vertices.end(), [&](SurfaceVertexId v) {
-      return seen_along(axis, center, surface.positions[v.value()]).radius < 0.6 * radius;
-    });
-    return covers && a.mean_along > b.mean_along;
-  };
-  if (layers.size() > 1) {
-    const auto outermost = std::max_element(layers.begin(), layers.end(),
-                                            [](const Layer& a, const Layer& b) { return a.mean_along < b.mean_along; });
-    const bool over_all = std::all_of(layers.begin(), layers.end(), [&](const Layer& other) {
-      return &other == &*outermost || lies_over(*outermost, other);
-    });
-    if (over_all) layers.erase(outermost);
-  }
+  remove_cornea(layers, surface, axis, center, radius);
   // A separate disc determines the size of the iris.
   if (layers.size() == 1 && layers[0].depth < 0.5 * layers[0].farthest_out && layers[0].farthest_out < 1.4 * radius) {
     radius = layers[0].farthest_out;

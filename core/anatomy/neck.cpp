@@ -92,14 +92,50 @@ bool is_below_chin(const Surface& surface, PartId part, const HeadLandmarks& mar
   return 2 * static_cast<std::size_t>(below) > members.size();
 }
 
+/// The skin of the face and how its vertices turn.
+class TurnedSkin {
+ public:
+  TurnedSkin(const Surface& surface, const std::vector<bool>& is_skin, std::span<const std::uint8_t> turn)
+      : TurnedSkin(places_of(surface, is_skin), turns_of(is_skin, turn)) {}
+
+  struct Below {
+    double distance;
+    std::uint8_t turn;
+  };
+  /// The skin that is nearest to a place.
+  [[nodiscard]] Below below(const glm::dvec3& place) const {
+    const NearestPoint::Hit hit = nearest_.nearest(place);
+    return {hit.distance, turn_[hit.index]};
+  }
+
+ private:
+  TurnedSkin(const std::vector<glm::dvec3>& places, std::vector<std::uint8_t> turn)
+      : nearest_(places), turn_(std::move(turn)) {}
+
+  static std::vector<glm::dvec3> places_of(const Surface& surface, const std::vector<bool>& is_skin) {
+    std::vector<glm::dvec3> places;
+    for (std::size_t s = 0; s < is_skin.size(); ++s) {
+      if (is_skin[s]) places.push_back(surface.positions[s]);
+    }
+    return places;
+  }
+  static std::vector<std::uint8_t> turns_of(const std::vector<bool>& is_skin, std::span<const std::uint8_t> turn) {
+    std::vector<std::uint8_t> turns;
+    for (std::size_t s = 0; s < is_skin.size(); ++s) {
+      if (is_skin[s]) turns.push_back(turn[s]);
+    }
+    return turns;
+  }
+
+  NearestPoint nearest_;
+  std::vector<std::uint8_t> turn_;
+};
+
 /// Whether a part below the chin hangs on the body: most of the skin beneath it does not turn.
-bool hangs_on_body(const Surface& surface, PartId part, const NearestPoint& skin,
-                   std::span<const std::uint8_t> turn_of_skin) {
+bool hangs_on_body(const Surface& surface, PartId part, const TurnedSkin& skin) {
   double turn = 0.0;
   const auto members = surface.members_of(part);
-  for (const SurfaceVertexId v : members) {
-    turn += turn_of_skin[skin.nearest(surface.positions[v.value()]).index];
-  }
+  for (const SurfaceVertexId v : members) turn += skin.below(surface.positions[v.value()]).turn;
   const auto count = static_cast<double>(members.size());
   return turn < 0.5 * 255.0 * count;
 }
@@ -111,8 +147,8 @@ bool may_be_body(const Part& part) {
 /// By part: whether it is worn on the head, as hair is that reaches down to the waist: enough of its vertices lie on
 /// the skull. Parts of one name count together, because hair consists of strands; those without a name or with the
 /// skin's count alone.
-std::vector<bool> worn_on_head(const Surface& surface, std::span<const Part> parts, const NearestPoint& skin,
-                               std::span<const std::uint8_t> turn_of_skin, const HeadLandmarks& marks) {
+std::vector<bool> worn_on_head(const Surface& surface, std::span<const Part> parts, const TurnedSkin& skin,
+                               const HeadLandmarks& marks) {
   std::set<std::string_view> names_of_skin = {""};
   for (const Part& part : parts) {
     if (part.role == PartRole::skin) names_of_skin.insert(part.name);
@@ -124,8 +160,8 @@ std::vector<bool> worn_on_head(const Surface& surface, std::span<const Part> par
   const auto lies_on_skull = [&](SurfaceVertexId v) {
     const glm::dvec3& place = surface.positions[v.value()];
     if (place.y < marks.chin.y + marks.height) return false;
-    const NearestPoint::Hit below = skin.nearest(place);
-    return below.distance < near_skull * marks.height && turn_of_skin[below.index] == 255;
+    const TurnedSkin::Below below = skin.below(place);
+    return below.distance < near_skull * marks.height && below.turn == 255;
   };
   struct Count {
     std::size_t vertices = 0, on_skull = 0;
@@ -146,6 +182,60 @@ std::vector<bool> worn_on_head(const Surface& surface, std::span<const Part> par
   return worn;
 }
 
+/// Gives the role `body` to the parts below the chin that hang on the body.
+void find_parts_of_body(const Surface& surface, std::span<Part> parts, const std::vector<bool>& is_skin,
+                        std::span<const std::uint8_t> turn, const HeadLandmarks& marks) {
+  // Made for the first part that needs them: most heads have none.
+  std::optional<TurnedSkin> skin;
+  std::vector<bool> worn;
+  for (std::uint32_t p = 0; p < parts.size(); ++p) {
+    if (!may_be_body(parts[p]) || !is_below_chin(surface, PartId(p), marks)) continue;
+    if (!skin) {
+      skin.emplace(surface, is_skin, turn);
+      worn = worn_on_head(surface, parts, *skin, marks);
+    }
+    if (!worn[p] && hangs_on_body(surface, PartId(p), *skin)) parts[p].role = PartRole::body;
+  }
+}
+
+/// The skin that stays where it is: that of the shoulders and of borders across the neck.
+std::vector<SurfaceVertexId> still_skin(const Surface& surface, const std::vector<bool>& is_skin,
+                                        std::span<const SkinBorder> borders, const NeckShape& neck,
+                                        const HeadLandmarks& marks) {
+  std::vector<SurfaceVertexId> still;
+  for (std::uint32_t s = 0; s < surface.vertex_count(); ++s) {
+    if (is_skin[s] && is_still(neck, marks, surface.positions[s])) still.emplace_back(s);
+  }
+  for (const SkinBorder& border : borders) {
+    if (border.high - border.low >= spanning * 2.0 * neck.radius)
+      still.insert(still.end(), border.vertices.begin(), border.vertices.end());
+  }
+  return still;
+}
+
+/// By vertex of the surface: the turn of the skin, by its place on the way from `still` to `head`; 255 for all else.
+std::vector<std::uint8_t> turn_of_skin(const Surface& surface, const std::vector<bool>& is_skin,
+                                       std::span<const SurfaceVertexId> head, std::span<const SurfaceVertexId> still,
+                                       const NeckShape& neck, const HeadLandmarks& marks) {
+  const double margin = border_height * marks.height;
+  EdgePathSearch search(surface);
+  const auto from_head_view = search.from(head);
+  const std::vector<double> from_head(from_head_view.begin(), from_head_view.end());
+  const auto from_still = search.from(still);
+  std::vector<std::uint8_t> turn(surface.vertex_count(), 255);
+  for (std::uint32_t s = 0; s < surface.vertex_count(); ++s) {
+    if (!is_skin[s]) continue;
+    const double down = from_head[s];
+    const double up = std::max(0.0, from_still[s] - margin);
+    if (std::isinf(down)) {
+      turn[s] = std::isinf(up) ? 255 : 0;
+    } else if (!std::isinf(up) && down > 0.0) {  // the head itself turns fully
+      turn[s] = in_255ths(share_of_turn(up / (down + up), neck, surface.positions[s]));
+    }
+  }
+  return turn;
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> turn_with_head(const Surface& surface, std::span<Part> parts, const FeaturePointSet& points,
@@ -162,46 +252,12 @@ std::vector<std::uint8_t> turn_with_head(const Surface& surface, std::span<Part>
   for (const SurfacePoint& point : surface_points(surface, points)) {
     if (is_skin[point.vertex.value()]) seeds.push_back(point.vertex);
   }
-  std::vector<SurfaceVertexId> still;
-  for (std::uint32_t s = 0; s < surface.vertex_count(); ++s) {
-    if (is_skin[s] && is_still(*neck, *marks, surface.positions[s])) still.emplace_back(s);
-  }
-  EdgePathSearch search(surface);
-  for (const SkinBorder& border : borders) {
-    if (border.high - border.low >= spanning * 2.0 * neck->radius)
-      still.insert(still.end(), border.vertices.begin(), border.vertices.end());
-  }
-  const double margin = border_height * marks->height;
-  const auto from_head_view = search.from(head_vertices(surface, seeds, *marks));
-  const std::vector<double> from_head(from_head_view.begin(), from_head_view.end());
-  const auto from_still = search.from(still);
+  const std::vector<SurfaceVertexId> head = head_vertices(surface, seeds, *marks);
+  const std::vector<SurfaceVertexId> still = still_skin(surface, is_skin, borders, *neck, *marks);
+  std::vector<std::uint8_t> turn = turn_of_skin(surface, is_skin, head, still, *neck, *marks);
 
-  std::vector<std::uint8_t> turn(surface.vertex_count(), 255);
-  std::vector<glm::dvec3> skin;
-  std::vector<std::uint8_t> turn_of_skin;
-  for (std::uint32_t s = 0; s < surface.vertex_count(); ++s) {
-    if (!is_skin[s]) continue;
-    const double down = from_head[s];
-    const double up = std::max(0.0, from_still[s] - margin);
-    if (std::isinf(down)) {
-      turn[s] = std::isinf(up) ? 255 : 0;
-    } else if (!std::isinf(up) && down > 0.0) {  // the head itself turns fully
-      turn[s] = in_255ths(share_of_turn(up / (down + up), *neck, surface.positions[s]));
-    }
-    skin.push_back(surface.positions[s]);
-    turn_of_skin.push_back(turn[s]);
-  }
-  // Made for the first part that needs them: most heads have none.
-  std::optional<NearestPoint> nearest;
-  std::vector<bool> worn;
+  find_parts_of_body(surface, parts, is_skin, turn, *marks);
   for (std::uint32_t p = 0; p < parts.size(); ++p) {
-    if (may_be_body(parts[p]) && is_below_chin(surface, PartId(p), *marks)) {
-      if (!nearest) {
-        nearest.emplace(skin);
-        worn = worn_on_head(surface, parts, *nearest, turn_of_skin, *marks);
-      }
-      if (!worn[p] && hangs_on_body(surface, PartId(p), *nearest, turn_of_skin)) parts[p].role = PartRole::body;
-    }
     if (parts[p].role == PartRole::skin) continue;
     const bool lies_on_shoulders = !neck->is_cut && reaches_below(surface, PartId(p), neck->shoulders);
     for (const SurfaceVertexId v : surface.members_of(PartId(p))) {

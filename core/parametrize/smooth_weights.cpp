@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <deque>
+#include <optional>
 
 #include <glm/geometric.hpp>
 
@@ -89,6 +90,120 @@ std::vector<Cavity> cavities_with_target(const Surface& surface, PartId part, st
   return cavities;
 }
 
+/// The points of a part, those on the edges of lips and lids with the shares of their margins.
+std::vector<KrigingSite> sites_of_points(const PointDistances& distances, std::span<const MarginSite> margins) {
+  std::vector<KrigingSite> sites = point_sites(distances);
+  for (const MarginSite& margin : margins) {
+    if (!margin.replaces_points) continue;
+    const auto at =
+        std::find_if(sites.begin(), sites.end(), [&](const KrigingSite& site) { return site.vertex == margin.vertex; });
+    if (at != sites.end()) at->shares = margin.shares;
+  }
+  return sites;
+}
+
+/// The rows of the vertices of one part, cavities apart.
+class SmoothRows {
+ public:
+  SmoothRows(const Surface& surface, const PointDistances& distances, std::vector<KrigingSite> of_points,
+             std::span<const MarginSite> margins, double unit, const WeightPrior& prior)
+      : surface_(surface),
+        distances_(distances),
+        unit_(unit),
+        prior_(prior),
+        points_(surface, distances, of_points, unit, between_points),
+        edges_(find_corrections(of_points, margins)),
+        kept_at_(distances.members.size(), nowhere) {
+    for (const SurfacePoint& point : distances.points)
+      places_[point.id.value()] = {point.vertex.value(), point.position / unit};
+  }
+
+  [[nodiscard]] Row at(std::size_t member) {
+    if (kept_at_[member] != nowhere) return kept_[kept_at_[member]];
+    Row row = row_of_points(points_, member);
+    for (const SiteKriging::Term& term : edges_.at(member)) {
+      const auto site = static_cast<std::size_t>(term.site - edges_.sites().data());
+      if (site >= corrections_.size()) continue;
+      corrections_[site].for_each([&](std::size_t id, double w) { row.at(id) += term.weight * w; });
+    }
+    cut(row);
+    keep_greatest(row);
+    prior_.correct(row, surface_.positions[distances_.members[member].value()] / unit_, places_);
+    keep_greatest(row);
+    return row;
+  }
+
+  /// The same, kept for later calls: cavities ask for the rows of their rim and of the skin in front again and again.
+  const Row& keep(std::size_t member) {
+    if (kept_at_[member] == nowhere) {
+      kept_.push_back(at(member));
+      kept_at_[member] = static_cast<std::uint32_t>(kept_.size() - 1);
+    }
+    return kept_[kept_at_[member]];
+  }
+
+ private:
+  static constexpr std::uint32_t nowhere = 0xFFFFFFFFU;
+
+  /// The corrections at the edges: their rows minus those from the points alone; zero at the points themselves.
+  SiteKriging find_corrections(const std::vector<KrigingSite>& of_points, std::span<const MarginSite> margins) {
+    std::vector<KrigingSite> sites = edge_sites(surface_, distances_, margins);
+    for (const KrigingSite& site : sites) {
+      Row& correction = corrections_.emplace_back();
+      add(correction, site, 1.0);
+      const Row plain = row_of_points(points_, member_of(distances_, site.vertex));
+      plain.for_each([&](std::size_t id, double w) { correction.at(id) -= w; });
+    }
+    sites.insert(sites.end(), of_points.begin(), of_points.end());
+    return {surface_, distances_, std::move(sites), unit_, at_edges};
+  }
+
+  const Surface& surface_;
+  const PointDistances& distances_;
+  double unit_;
+  const WeightPrior& prior_;
+  WeightPrior::Places places_;
+  SiteKriging points_;
+  std::vector<Row> corrections_;  ///< of the first sites of edges_; the others are the points
+  SiteKriging edges_;
+  std::vector<std::uint32_t> kept_at_;  ///< by member: in kept_
+  std::deque<Row> kept_;                ///< its rows stay where they are
+};
+
+/// Rows of the cavities of a part, which continue those of their rims.
+class CavityRows {
+ public:
+  CavityRows(const Surface& surface, const PointDistances& distances, const std::vector<Cavity>& cavities, double unit,
+             SmoothRows& rows)
+      : places_(distances.members.size()) {
+    const auto row_of = [&](SurfaceVertexId vertex) -> const Row& { return rows.keep(member_of(distances, vertex)); };
+    for (const Cavity& cavity : cavities) {
+      const std::size_t table = tables_.size();
+      tables_.push_back(cavity_rows(surface, cavity, unit, row_of));
+      for (std::size_t row = 0; row < cavity.members.size(); ++row)
+        places_[member_of(distances, cavity.members[row])] = Place{table, row};
+    }
+  }
+
+  /// Appends the row of a member; returns false if it is in no cavity.
+  bool push(std::size_t member, WeightTable<double>& table) const {
+    const std::optional<Place>& place = places_[member];
+    if (!place) return false;
+    const WeightTable<double>& rows = tables_[place->table];
+    for (std::size_t k = 0; k < rows.points_of(place->row).size(); ++k)
+      table.push(rows.points_of(place->row)[k], rows.weights_of(place->row)[k]);
+    table.end_row();
+    return true;
+  }
+
+ private:
+  struct Place {
+    std::size_t table, row;
+  };
+  std::vector<WeightTable<double>> tables_;   ///< one of each cavity
+  std::vector<std::optional<Place>> places_;  ///< by member
+};
+
 }  // namespace
 
 double weight_unit(const PointDistances& distances, double eye_separation) {
@@ -98,86 +213,19 @@ double weight_unit(const PointDistances& distances, double eye_separation) {
 WeightTable<double> smooth_part_weights(const Surface& surface, const PointDistances& distances, double eye_separation,
                                         std::span<const MarginSite> margins, const WeightPrior& prior,
                                         const ModelledEyes& modelled) {
-  std::vector<KrigingSite> of_points = point_sites(distances);
-  for (const MarginSite& margin : margins) {
-    if (!margin.replaces_points) continue;
-    const auto at = std::find_if(of_points.begin(), of_points.end(),
-                                 [&](const KrigingSite& site) { return site.vertex == margin.vertex; });
-    if (at != of_points.end()) at->shares = margin.shares;
-  }
+  std::vector<KrigingSite> of_points = sites_of_points(distances, margins);
   const double unit = unit_length(of_points, eye_separation);
-  std::vector<KrigingSite> of_edges = edge_sites(surface, distances, margins);
-  SiteKriging points(surface, distances, of_points, unit, between_points);
-
-  // The corrections at the edges: their rows minus those from the points alone; zero at the points themselves.
-  std::vector<Row> corrections;
-  for (const KrigingSite& site : of_edges) {
-    Row& correction = corrections.emplace_back();
-    add(correction, site, 1.0);
-    const Row plain = row_of_points(points, member_of(distances, site.vertex));
-    plain.for_each([&](std::size_t id, double w) { correction.at(id) -= w; });
-  }
-  const std::size_t edge_count = of_edges.size();
-  of_edges.insert(of_edges.end(), of_points.begin(), of_points.end());
-  SiteKriging edges(surface, distances, std::move(of_edges), unit, at_edges);
-
-  // Rows of the cavities continue those of their rims.
+  SmoothRows rows(surface, distances, std::move(of_points), margins, unit, prior);
   const PartId part = surface.part_of[distances.members.front().value()];
   const std::vector<Cavity> cavities = cavities_with_target(surface, part, distances.points, modelled);
-  constexpr std::uint32_t none = 0xFFFFFFFFU;
-  struct CavityRow {
-    std::uint32_t cavity = none;
-    std::uint32_t row = none;
-  };
-  std::vector<CavityRow> in_cavity(distances.members.size());
-  std::vector<WeightTable<double>> cavity_rows_of;
-  WeightPrior::Places places;
-  for (const SurfacePoint& point : distances.points)
-    places[point.id.value()] = {point.vertex.value(), point.position / unit};
-  const auto smooth_row = [&](std::size_t m) {
-    Row row = row_of_points(points, m);
-    for (const SiteKriging::Term& term : edges.at(m)) {
-      const auto site = static_cast<std::size_t>(term.site - edges.sites().data());
-      if (site >= edge_count) continue;
-      corrections[site].for_each([&](std::size_t id, double w) { row.at(id) += term.weight * w; });
-    }
-    cut(row);
-    keep_greatest(row);
-    prior.correct(row, surface.positions[distances.members[m].value()] / unit, places);
-    keep_greatest(row);
-    return row;
-  };
-  // Cavities ask for the same rows again and again: those of the rim and of the skin in front.
-  std::vector<std::uint32_t> kept_at(distances.members.size(), none);
-  std::deque<Row> kept;  // its rows stay where they are
-  const auto kept_row = [&](SurfaceVertexId vertex) -> const Row& {
-    const std::size_t m = member_of(distances, vertex);
-    if (kept_at[m] == none) {
-      kept_at[m] = static_cast<std::uint32_t>(kept.size());
-      kept.push_back(smooth_row(m));
-    }
-    return kept[kept_at[m]];
-  };
-  for (const Cavity& cavity : cavities) {
-    const auto c = static_cast<std::uint32_t>(cavity_rows_of.size());
-    cavity_rows_of.push_back(cavity_rows(surface, cavity, unit, kept_row));
-    for (std::size_t k = 0; k < cavity.members.size(); ++k) {
-      in_cavity[member_of(distances, cavity.members[k])] = {c, static_cast<std::uint32_t>(k)};
-    }
-  }
+  const CavityRows in_cavities(surface, distances, cavities, unit, rows);
 
   WeightTable<double> table;
   for (std::size_t m = 0; m < distances.members.size(); ++m) {
     if (is_held(modelled, distances.members[m])) {
       table.end_row();
-    } else if (const auto [cavity, row] = in_cavity[m]; cavity != none) {
-      const WeightTable<double>& rows = cavity_rows_of[cavity];
-      for (std::size_t k = 0; k < rows.points_of(row).size(); ++k) {
-        table.push(rows.points_of(row)[k], rows.weights_of(row)[k]);
-      }
-      table.end_row();
-    } else {
-      push_row(table, kept_at[m] != none ? kept[kept_at[m]] : smooth_row(m));
+    } else if (!in_cavities.push(m, table)) {
+      push_row(table, rows.at(m));
     }
   }
   return table;
