@@ -1,7 +1,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
+#include <optional>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -65,69 +66,95 @@ std::vector<Border> borders_of(const MeshSides& mesh) {
   return borders;
 }
 
+/// Border edges in figures.
+struct BorderLengths {
+  double middle = 0.0;                                    ///< the median
+  double extent = 0.0;                                    ///< of their vertices from the origin
+  std::unordered_map<std::uint32_t, double> shortest_at;  ///< the shortest border edge at each vertex
+
+  /// Gaps of borders that were meant to be joined are no wider.
+  [[nodiscard]] double widest_gap() const { return gap_share * middle; }
+};
+
+/// `borders` must not be empty.
+BorderLengths lengths_of(std::span<const Border> borders, const Surface& surface) {
+  BorderLengths result;
+  std::vector<double> lengths;
+  for (const auto& [a, b] : borders) {
+    const double length = glm::distance(surface.positions[a], surface.positions[b]);
+    lengths.push_back(length);
+    for (const std::uint32_t v : {a, b}) {
+      result.extent = std::max(result.extent, glm::length(surface.positions[v]));
+      double& shortest = result.shortest_at.try_emplace(v, length).first->second;
+      shortest = std::min(shortest, length);
+    }
+  }
+  const auto half = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::nth_element(lengths.begin(), half, lengths.end());
+  result.middle = *half;
+  return result;
+}
+
+/// The vertices of other borders that border vertices touch without being joined to them.
+class Contacts {
+ public:
+  Contacts(const Surface& surface, const BorderLengths& lengths)
+      : surface_(surface), lengths_(lengths), cells_(surface, lengths.widest_gap()) {
+    for (const auto& [vertex, length] : lengths.shortest_at) cells_.insert(vertex);
+  }
+
+  [[nodiscard]] std::optional<std::uint32_t> of(std::uint32_t vertex) const {
+    std::optional<std::uint32_t> contact;
+    double nearest = std::min(lengths_.widest_gap(), gap_share * lengths_.shortest_at.at(vertex));
+    cells_.visit_near(vertex, [&](std::uint32_t other) {
+      if (other == vertex) return;
+      const double distance = glm::distance(surface_.positions[vertex], surface_.positions[other]);
+      if (distance > nearest || distance > gap_share * lengths_.shortest_at.at(other)) return;
+      for (const Surface::Step& step : surface_.steps_from(SurfaceVertexId(vertex)))
+        if (step.to.value() == other) return;
+      nearest = distance;
+      contact = other;
+    });
+    return contact;
+  }
+
+ private:
+  const Surface& surface_;
+  const BorderLengths& lengths_;
+  Cells cells_;
+};
+
+bool is_slit(const Slits& slits, const glm::dvec3& start) {
+  return std::any_of(slits.places.begin(), slits.places.end(),
+                     [&](const glm::dvec3& place) { return glm::distance(place, start) < slits.reach; });
+}
+
 }  // namespace
 
 std::vector<Finding> find_open_seams(const Model& model, const Surface& surface, std::span<const Part> parts,
                                      const MeshSides& mesh, const Slits& slits) {
   const std::vector<Border> borders = borders_of(mesh);
   if (borders.empty()) return {};
-
-  std::vector<double> lengths;
-  double extent = 0.0;
-  std::unordered_map<std::uint32_t, double> shortest_at;  // shortest border edge at each vertex
-  for (const auto& [a, b] : borders) {
-    const double length = glm::distance(surface.positions[a], surface.positions[b]);
-    lengths.push_back(length);
-    for (const std::uint32_t v : {a, b}) {
-      extent = std::max(extent, glm::length(surface.positions[v]));
-      auto& shortest = shortest_at.try_emplace(v, length).first->second;
-      shortest = std::min(shortest, length);
-    }
-  }
-  const auto half = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), half, lengths.end());
-  const double widest = gap_share * *half;
+  const BorderLengths lengths = lengths_of(borders, surface);
   // No gap is possible at zero width, and the cell coordinates must fit into 64 bits.
-  if (!(widest > extent * 1e-12)) return {};
+  if (!(lengths.widest_gap() > lengths.extent * 1e-12)) return {};
 
-  Cells cells(surface, widest);
-  for (const auto& [vertex, length] : shortest_at) cells.insert(vertex);
-
-  constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
-  const auto partner_of = [&](std::uint32_t vertex) {
-    std::uint32_t partner = nobody;
-    double nearest = std::min(widest, gap_share * shortest_at.at(vertex));
-    cells.visit_near(vertex, [&](std::uint32_t other) {
-      if (other == vertex) return;
-      const double distance = glm::distance(surface.positions[vertex], surface.positions[other]);
-      if (distance > nearest || distance > gap_share * shortest_at.at(other)) return;
-      for (const Surface::Step& step : surface.steps_from(SurfaceVertexId(vertex)))
-        if (step.to.value() == other) return;
-      nearest = distance;
-      partner = other;
-    });
-    return partner;
-  };
-
-  // A vertex that touches another border is a contact; an edge with two such ends is a seam.
+  // An edge with a contact at both ends is a seam.
+  const Contacts contacts(surface, lengths);
   VertexSample vertices;
   std::size_t count = 0;
   double gap = 0.0;
   for (const auto& [a, b] : borders) {
-    const std::uint32_t pa = partner_of(a);
-    if (pa == nobody) continue;
-    const std::uint32_t pb = partner_of(b);
-    if (pb == nobody || pa == pb) continue;
+    const auto at_a = contacts.of(a);
+    if (!at_a) continue;
+    const auto at_b = contacts.of(b);
+    if (!at_b || at_a == at_b) continue;
     // The piece that was cut off may have any role, but one of the two must be skin.
-    if (!is_skin(surface, parts, a) && !is_skin(surface, parts, pa)) continue;
-    const glm::dvec3& start = surface.positions[a];
-    const bool is_a_slit = std::any_of(slits.places.begin(), slits.places.end(), [&](const glm::dvec3& place) {
-      return glm::distance(place, start) < slits.reach;
-    });
-    if (is_a_slit) continue;
+    if (!is_skin(surface, parts, a) && !is_skin(surface, parts, *at_a)) continue;
+    if (is_slit(slits, surface.positions[a])) continue;
     ++count;
-    gap = std::max({gap, glm::distance(surface.positions[a], surface.positions[pa]),
-                    glm::distance(surface.positions[b], surface.positions[pb])});
+    gap = std::max({gap, glm::distance(surface.positions[a], surface.positions[*at_a]),
+                    glm::distance(surface.positions[b], surface.positions[*at_b])});
     vertices.add(surface.file_vertex_of[a]);
   }
   if (count == 0) return {};
@@ -140,9 +167,8 @@ std::vector<Finding> find_open_seams(const Model& model, const Surface& surface,
                   "the cut";
   finding.remedy =
       "merge vertices by distance along the seam: give those that belong together the same position; lips and lids "
-      "that "
-      "only touch may stay as they are";
-  finding.measured = {"widest gap as a fraction of the length of a border edge", gap / *half, gap_share};
+      "that only touch may stay as they are";
+  finding.measured = {"widest gap as a fraction of the length of a border edge", gap / lengths.middle, gap_share};
   return {std::move(finding)};
 }
 

@@ -99,59 +99,84 @@ std::vector<PlacedPoint> turned(std::span<const PlacedPoint> points, const glm::
   return result;
 }
 
-void guess_axes(std::span<const PlacedPoint> points, ModelFrame& guess) {
-  glm::dvec3 left = left_of(points);
-  const glm::dvec3 up = up_of(points);
-  const glm::dvec3 front = front_of(points);
-  if (is_known(left) && is_known(up) && is_known(front) && glm::dot(glm::cross(up, front), left) < -0.1) {
-    guess.reasons.emplace_back(
-        "The points of the left side lie on the right, seen from up and front: left and right are exchanged, or the "
-        "model is a mirror image");
-    left = glm::dvec3(0.0);
+/// Where the left side, the top and the front of the head are, as far as points show it; zero: unknown.
+struct Directions {
+  glm::dvec3 left, up, front;
+
+  /// Left and right are exchanged, or the model is a mirror image.
+  [[nodiscard]] bool are_mirrored() const {
+    return is_known(left) && is_known(up) && is_known(front) && glm::dot(glm::cross(up, front), left) < -0.1;
   }
-  // Two directions determine the third. A single one does not, and a front without an up may be tilted.
-  if (!is_known(up) || (!is_known(left) && !is_known(front))) return;
-  const auto score = [&](const Axes& axes) {
+  /// Two directions determine the third. A single one does not, and a front without an up may be tilted.
+  [[nodiscard]] bool are_enough() const { return is_known(up) && (is_known(left) || is_known(front)); }
+  [[nodiscard]] double score(const Axes& axes) const {
     const glm::dvec3 u = to_vector(axes.up);
     const glm::dvec3 f = to_vector(axes.front);
     return glm::dot(u, up) + glm::dot(f, front) + glm::dot(glm::cross(u, f), left);
-  };
+  }
+  /// Contradictory points agree with no axes.
+  [[nodiscard]] bool agree_with(const Axes& axes) const {
+    constexpr double least_agreement = 0.5;
+    const auto agrees = [](const glm::dvec3& axis, const glm::dvec3& seen) {
+      return !is_known(seen) || glm::dot(axis, seen) > least_agreement;
+    };
+    const glm::dvec3 u = to_vector(axes.up);
+    const glm::dvec3 f = to_vector(axes.front);
+    return agrees(u, up) && agrees(f, front) && agrees(glm::cross(u, f), left);
+  }
+};
+
+/// The axes with the best score, and by how much it is better than the next.
+struct BestAxes {
+  Axes axes;
+  double lead;
+};
+
+BestAxes best_axes(const Directions& seen) {
   const auto candidates = all_axes();
   const Axes best = *std::max_element(candidates.begin(), candidates.end(),
-                                      [&](const Axes& a, const Axes& b) { return score(a) < score(b); });
+                                      [&](const Axes& a, const Axes& b) { return seen.score(a) < seen.score(b); });
   double second = -3.0;
   for (const Axes& axes : candidates) {
-    if (axes != best) second = std::max(second, score(axes));
+    if (axes != best) second = std::max(second, seen.score(axes));
   }
+  return {best, seen.score(best) - second};
+}
+
+std::string reason_for(const Axes& axes, const Directions& seen, bool is_sure) {
+  std::string reason = "The feature points stand " + std::string(to_string(axes.up)) + " up";
+  if (is_known(seen.left))
+    reason += ", their pairs apart along " + std::string(1, "XYZ"[3 - axis_of(axes.up) - axis_of(axes.front)]);
+  reason += ", the face towards " + std::string(to_string(axes.front));
+  if (!is_sure) reason += ", but so unclearly that it might be another way";
+  return reason;
+}
+
+void guess_axes(std::span<const PlacedPoint> points, ModelFrame& guess) {
+  Directions seen{left_of(points), up_of(points), front_of(points)};
+  if (seen.are_mirrored()) {
+    guess.reasons.emplace_back(
+        "The points of the left side lie on the right, seen from up and front: left and right are exchanged, or the "
+        "model is a mirror image");
+    seen.left = glm::dvec3(0.0);
+  }
+  if (!seen.are_enough()) return;
+  const auto [best, lead] = best_axes(seen);
   // A head tilted by 45 degrees is between two axes; the choice needs a clear lead.
   constexpr double least_lead = 0.3;
-  // Contradictory points are not used: nothing is rotated.
-  constexpr double least_agreement = 0.5;
-  const glm::dvec3 u = to_vector(best.up);
-  const glm::dvec3 f = to_vector(best.front);
-  const auto agrees = [](const glm::dvec3& axis, const glm::dvec3& seen) {
-    return !is_known(seen) || glm::dot(axis, seen) > least_agreement;
-  };
+  const bool is_clear = lead > least_lead && seen.agree_with(best);
   // A head tilted by more shows it by its proportions, unless left and right contradict the rest.
   const bool keeps_axes = best == guess.axes;
   const glm::dmat3 tilt = keeps_axes ? guess.tilt : glm::dmat3(1.0);
-  const auto upright = is_known(left) ? upright_rotation(turned(points, tilt * to_mpeg4(best))) : std::nullopt;
-  const bool is_clear =
-      score(best) - second > least_lead && agrees(u, up) && agrees(f, front) && agrees(glm::cross(u, f), left);
-  const bool is_sure = (is_clear || upright) &&
-                       // If no points show the front, exchanged sides would turn the head back to front.
-                       (is_known(front) || keeps_axes);
+  const auto upright = is_known(seen.left) ? upright_rotation(turned(points, tilt * to_mpeg4(best))) : std::nullopt;
+  // If no points show the front, exchanged sides would turn the head back to front.
+  const bool is_sure = (is_clear || upright) && (is_known(seen.front) || keeps_axes);
   if (is_sure) {
     guess.axes = best;
     guess.tilt = upright ? *upright * tilt : tilt;
   }
   guess.axes_sure = is_sure;
-  std::string reason = "The feature points stand " + std::string(to_string(best.up)) + " up";
-  if (is_known(left))
-    reason += ", their pairs apart along " + std::string(1, "XYZ"[3 - axis_of(best.up) - axis_of(best.front)]);
-  reason += ", the face towards " + std::string(to_string(best.front));
-  if (!is_sure) reason += ", but so unclearly that it might be another way";
-  guess.reasons.push_back(std::move(reason));
+  guess.reasons.push_back(reason_for(best, seen, is_sure));
   if (is_sure && guess.tilt != glm::dmat3(1.0))
     guess.reasons.push_back("The face is tilted by " + std::to_string(std::lround(tilt_of(guess))) +
                             " degrees from these axes, by the symmetry of its points and the proportions of faces");

@@ -181,6 +181,32 @@ std::size_t drawn_vertices(const Corners& corners, const std::vector<LevelTriang
   return fans;
 }
 
+/// How far each group is collapsed for a level, and the triangles that are left.
+struct LevelShape {
+  std::vector<CollapseLimit> limits;
+  std::vector<LevelTriangle> triangles;
+  std::size_t vertex_count = 0;
+};
+
+/// `share`: of the full mesh.
+LevelShape shape_within(const std::vector<CollapseHistory>& groups, const Corners& corners, std::uint32_t budget,
+                        double share) {
+  const auto shape_for = [&](std::size_t aim) {
+    LevelShape shape;
+    shape.limits = limits_within(groups, aim, share);
+    shape.triangles = triangles_at(groups, shape.limits);
+    shape.vertex_count = drawn_vertices(corners, shape.triangles);
+    return shape;
+  };
+  LevelShape shape = shape_for(budget);
+  // A non-manifold mesh has slightly more vertices than corners: lower the target by the difference, a few times.
+  for (std::size_t aim = budget, attempt = 0; shape.vertex_count > budget && attempt < 3; ++attempt) {
+    aim -= std::min(aim, shape.vertex_count - budget);
+    shape = shape_for(aim);
+  }
+  return shape;
+}
+
 }  // namespace
 
 Result<std::vector<LevelOfDetail>> decimate(const Model& model, const Surface& surface, const Rig& rig,
@@ -221,26 +247,16 @@ Result<std::vector<LevelOfDetail>> decimate(const Model& model, const Surface& s
   const auto full = static_cast<double>(std::max<std::size_t>(before, 1));
   for (const std::uint32_t budget : options.budgets) {
     if (budget >= before) continue;
-    const double share = budget / full;
-    std::vector<CollapseLimit> limits = limits_within(groups, budget, share);
-    std::vector<LevelTriangle> triangles = triangles_at(groups, limits);
-    std::size_t count = drawn_vertices(corners, triangles);
-    // A non-manifold mesh has slightly more vertices than corners: lower the target by the difference, a few times.
-    for (std::size_t aim = budget, attempt = 0; count > budget && attempt < 3; ++attempt) {
-      aim -= std::min(aim, count - budget);
-      limits = limits_within(groups, aim, share);
-      triangles = triangles_at(groups, limits);
-      count = drawn_vertices(corners, triangles);
-    }
-    if (static_cast<double>(count) > most_of_level_before * static_cast<double>(before)) continue;
+    const LevelShape shape = shape_within(groups, corners, budget, budget / full);
+    if (static_cast<double>(shape.vertex_count) > most_of_level_before * static_cast<double>(before)) continue;
     std::vector<std::uint32_t> kept(corners.corners.size());
     std::iota(kept.begin(), kept.end(), 0U);
-    for (std::size_t g = 0; g < groups.size(); ++g) groups[g].replace_corners(limits[g], kept);
-    levels.push_back(level_from(corners, triangles, !model.uvs.empty() && !model.uv_triangles.empty(),
+    for (std::size_t g = 0; g < groups.size(); ++g) groups[g].replace_corners(shape.limits[g], kept);
+    levels.push_back(level_from(corners, shape.triangles, !model.uvs.empty() && !model.uv_triangles.empty(),
                                 level_normals(normals, kept)));
     levels.back().budget = budget;
-    levels.back().vertex_count = static_cast<std::uint32_t>(count);
-    before = count;
+    levels.back().vertex_count = static_cast<std::uint32_t>(shape.vertex_count);
+    before = shape.vertex_count;
   }
   return levels;
 }

@@ -286,6 +286,36 @@ class CornerUvs {
   std::map<std::pair<float, float>, std::uint32_t> of_place_;
 };
 
+/// Where the corners of painted triangles are on textures that show `span` radii of the iris.
+void set_uvs(const Model& model, const EyePainter& painter, std::span<const PaintedTriangle> painted, float span,
+             CornerUvs& uvs) {
+  for (std::size_t t = 0; t < painted.size(); ++t) {
+    if (painted[t].paint == Paint::none) continue;
+    if (painted[t].is_inner_wall && painted[t].paint == Paint::eye) {
+      uvs.set_all(t, black_place);
+      continue;
+    }
+    std::array<std::optional<glm::vec2>, 3> places;
+    for (std::size_t c = 0; c < 3; ++c) places[c] = painter.texture_place(*painted[t].eye, model.triangles[t][c], span);
+    if (!places[0] || !places[1] || !places[2]) {
+      uvs.set_all(t, painted[t].is_inside && painted[t].paint == Paint::eye ? black_place : white_place);
+      continue;
+    }
+    for (std::size_t c = 0; c < 3; ++c) uvs.set(t, static_cast<int>(c), model.triangles[t][c], *places[c]);
+  }
+}
+
+/// Appends a material with this image; its number.
+int add_material(Model& model, const char* name, Image image) {
+  model.images.push_back(std::move(image));
+  Material material = plain_material(Plain::sclera);
+  material.name = name;
+  material.base_color = glm::vec4(1.0F);
+  material.base_color_image = static_cast<int>(model.images.size() - 1);
+  model.materials.push_back(std::move(material));
+  return static_cast<int>(model.materials.size() - 1);
+}
+
 }  // namespace
 
 EyeLook eyes_of(const Rig& rig) {
@@ -348,33 +378,11 @@ void paint_eyes(Model& model, const Surface& surface, std::span<const Part> part
   span = std::min(1.02F * span, widest_span);
 
   CornerUvs uvs(model);
-  for (std::size_t t = 0; t < painted.size(); ++t) {
-    if (painted[t].paint == Paint::none) continue;
-    if (painted[t].is_inner_wall && painted[t].paint == Paint::eye) {
-      uvs.set_all(t, black_place);
-      continue;
-    }
-    std::array<std::optional<glm::vec2>, 3> places;
-    for (std::size_t c = 0; c < 3; ++c) places[c] = painter.texture_place(*painted[t].eye, model.triangles[t][c], span);
-    if (!places[0] || !places[1] || !places[2]) {
-      uvs.set_all(t, painted[t].is_inside && painted[t].paint == Paint::eye ? black_place : white_place);
-      continue;
-    }
-    for (std::size_t c = 0; c < 3; ++c) uvs.set(t, static_cast<int>(c), model.triangles[t][c], *places[c]);
-  }
-  const auto add_material = [&model](const char* name, Image image) {
-    model.images.push_back(std::move(image));
-    Material material = plain_material(Plain::sclera);
-    material.name = name;
-    material.base_color = glm::vec4(1.0F);
-    material.base_color_image = static_cast<int>(model.images.size() - 1);
-    model.materials.push_back(std::move(material));
-    return static_cast<int>(model.materials.size() - 1);
-  };
-  const int eye = add_material("eye", eye_texture(span));
+  set_uvs(model, painter, painted, span, uvs);
+  const int eye = add_material(model, "eye", eye_texture(span));
   int cornea = -1;
   if (std::any_of(painted.begin(), painted.end(), [](const auto& t) { return t.paint == Paint::cornea; })) {
-    cornea = add_material("eye white", cornea_texture(span));
+    cornea = add_material(model, "eye white", cornea_texture(span));
     model.materials.back().alpha_mode = Material::AlphaMode::mask;
   }
   model.primitives = painted_primitives(model, [&](const Primitive&, std::uint32_t t) -> std::optional<int> {
