@@ -189,6 +189,12 @@ bool ModelledRims::is_of_eye(SurfaceVertexId vertex) const {
   return std::binary_search(of_eye.begin(), of_eye.end(), vertex);
 }
 
+bool ModelledRims::surround(const glm::dvec3& place) const {
+  if (place.x < columns.front().upper.x || columns.back().upper.x < place.x) return false;
+  const Column& edges = at(place.x);
+  return edges.lower.y < place.y && place.y < edges.upper.y;
+}
+
 std::optional<ModelledRims> find_modelled_rims(const Surface& surface, std::span<const glm::dvec3> places,
                                                std::span<const Triangle> triangles, PartId part,
                                                const LidPlaces& expected) {

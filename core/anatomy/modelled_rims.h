@@ -24,6 +24,8 @@ struct ModelledRims {
 
   [[nodiscard]] const Column& at(double x) const;
   [[nodiscard]] bool is_of_eye(SurfaceVertexId vertex) const;
+  /// Whether a place is between the edges, seen from the front.
+  [[nodiscard]] bool surround(const glm::dvec3& place) const;
 };
 
 /// The edges of an eye that is about between `expected`: a smooth patch with lids that step forward all around it.

@@ -79,18 +79,20 @@ Report examine_mesh(const Model& model, const Surface& surface, std::span<const 
 
 Report examine(const Model& model, const Surface& surface, const Rig& rig, WeightMethod method) {
   const MeshSides mesh = sort_sides(model, surface);
+  const std::vector<SurfacePoint> points = surface_points(surface, rig.points);
   const Subject head{model,
                      surface,
                      mesh,
                      rig,
                      method,
                      fit_face_axes(rig.points),
-                     find_misplaced_rim_points(surface, surface_points(surface, rig.points))};
+                     find_misplaced_rim_points(surface, points),
+                     find_points_on_eyes(surface, model.triangles, rig.parts, points)};
   Report report;
   for (const auto check :
-       {find_wrong_way_round, find_points_on_wrong_surface, find_points_off_lid_edge, find_unit_faults,
-        find_joined_rims, find_leaks, find_rims_not_neutral, find_points_out_of_order, find_points_off_mirror,
-        find_idle_parts, find_holes, find_wrong_density, find_missing_points, find_far_reach})
+       {find_wrong_way_round, find_points_on_wrong_surface, find_points_off_lid_edge, find_points_on_modelled_eyes,
+        find_unit_faults, find_joined_rims, find_leaks, find_rims_not_neutral, find_points_out_of_order,
+        find_points_off_mirror, find_idle_parts, find_holes, find_wrong_density, find_missing_points, find_far_reach})
     append(report, check(head));
   find_in_mesh(model, surface, rig.parts, mesh, slits_of(head.frame, rig.points), report);
   return errors_first(std::move(report));

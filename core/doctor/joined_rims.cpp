@@ -30,6 +30,12 @@ bool closes_over_eye(const Subject& head, const Opening& opening, const Modelled
   return !opening.is_mouth && head.rig.lids[eye_of(opening)] && modelled[eye_of(opening)];
 }
 
+/// Whether they will, as soon as their points are off the eye.
+bool will_close_over_eye(const Subject& head, const Opening& opening) {
+  return are_shares(head.method) &&
+         std::any_of(head.on_eyes.begin(), head.on_eyes.end(), [&](const PointOnEye& p) { return p.lids == &opening; });
+}
+
 }  // namespace
 
 std::vector<Finding> find_joined_rims(const Subject& head) {
@@ -41,7 +47,7 @@ std::vector<Finding> find_joined_rims(const Subject& head) {
   if (are_shares(head.method))
     modelled = find_modelled_eyes(head.surface, head.model.triangles, head.rig.parts, points);
   for (const Opening& opening : openings) {
-    if (closes_over_eye(head, opening, modelled)) continue;
+    if (closes_over_eye(head, opening, modelled) || will_close_over_eye(head, opening)) continue;
     const std::optional<RimCrossing> crossing = shortest_crossing(head.surface, opening, points);
     if (!crossing || !(crossing->share < joined_share)) continue;
     Finding finding;

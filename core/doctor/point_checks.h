@@ -24,6 +24,9 @@ std::vector<Finding> find_points_on_wrong_surface(const Subject& head);
 /// Points of lids that lie on the fold above (below) the edge of the lid.
 std::vector<Finding> find_points_off_lid_edge(const Subject& head);
 
+/// Points of lids that lie on an eye that is modelled in the skin.
+std::vector<Finding> find_points_on_modelled_eyes(const Subject& head);
+
 /// FAPUs without a value, or with an implausible one.
 std::vector<Finding> find_unit_faults(const Subject& head);
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/anatomy/points_on_eyes.h"
 #include "core/anatomy/rim_points.h"
 #include "core/doctor/face_axes.h"
 #include "core/doctor/mesh_sides.h"
@@ -19,6 +20,7 @@ struct Subject {
   WeightMethod method;
   FaceAxes frame;
   std::vector<MisplacedRimPoint> misplaced = {};  ///< of find_misplaced_rim_points
+  std::vector<PointOnEye> on_eyes = {};           ///< of find_points_on_eyes
 };
 
 }  // namespace semblante

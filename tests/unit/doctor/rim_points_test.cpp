@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/sculpted_eye.h"
 #include "tests/unit/doctor/heads.h"
 #include "tests/unit/doctor/spoil.h"
 
@@ -94,6 +95,31 @@ TEST_P(RimPoints, OnTheFoldOfALidAreMovedToItsEdgeByTheRemedy) {
   moved.vertex = finding->move->vertex;
   moved.position = head->model.positions[moved.vertex->value()];
   EXPECT_EQ(find_code(examine_without_weights(*head), FindingCode::point_off_lid_edge), nullptr);
+}
+
+/// A sculpture, whose eye is one skin with its lids.
+TEST(PointsOnModelledEyes, AreMovedToTheEdgeOfTheirLidByTheRemedy) {
+  testing::SculptedEye sculpture(0.08);
+  const auto report = [&] {
+    Head head;
+    head.model = sculpture.model;
+    for (const SurfacePoint& p : sculpture.points)
+      head.points.push_back({p.id, sculpture.surface.file_vertex_of[p.vertex.value()], glm::vec3(p.position)});
+    return examine_without_weights(head);
+  };
+  EXPECT_EQ(find_code(report(), FindingCode::point_on_eye), nullptr);
+  sculpture.mark("3.3", 0.0, -0.15);
+  const Report before = report();
+  const Finding* const finding = find_code(before, FindingCode::point_on_eye);
+  ASSERT_NE(finding, nullptr);
+  EXPECT_EQ(finding->severity, Severity::warning);
+  EXPECT_THAT(finding->words, HasSubstr("3.3 lies on the eye instead of the edge of the lower lid"));
+  EXPECT_EQ(find_code(before, FindingCode::lids_joined), nullptr) << "nothing of the mesh is to be deleted";
+  ASSERT_TRUE(finding->move);
+  EXPECT_EQ(to_string(finding->move->point), "3.3");
+  sculpture.mark("3.3", finding->move->position.x, finding->move->position.y);
+  EXPECT_EQ(sculpture.surface.file_vertex_of[sculpture.point("3.3").vertex.value()], finding->move->vertex);
+  EXPECT_EQ(find_code(report(), FindingCode::point_on_eye), nullptr);
 }
 
 /// A point that is marked a millimetre or two above the edge of its lid.

@@ -166,6 +166,7 @@ export const portuguese = {
   'A point on the other lip or lid': 'Um ponto no outro lábio ou pálpebra',
   'The token is not accepted: it was never made, or is revoked.': 'O token não é aceito: nunca foi criado, ou foi revogado.',
   'A point on the fold of a lid': 'Um ponto na dobra de uma pálpebra',
+  'A point on the eye': 'Um ponto sobre o olho',
   'Jaw and inner lips': 'Mandíbula e parte interna dos lábios',
   Head: 'Cabeça',
   Nose: 'Nariz',

@@ -99,6 +99,10 @@ export const portugueseFindings: Readonly<Record<string, Say>> = {
     `${first(facts)} está na dobra da pálpebra, e não na borda: visto de frente, a pele cobre ${percent(facts)} do caminho até a outra pálpebra; uma piscada deixa o olho aberto e vinca a dobra`,
     `Mova ${first(facts)} para o vértice ${facts.vertex ?? 'mais próximo'} na borda da pálpebra`,
   ],
+  'point-on-eye': (facts) => [
+    `${first(facts)} está sobre o olho, e não na borda da pálpebra, que fica a ${percent(facts)} da distância entre os olhos dali; o olho é uma só pele com as pálpebras, por isso vai junto, e uma piscada não se fecha sobre ele`,
+    `Mova ${first(facts)} para o vértice ${facts.vertex ?? 'mais próximo'}, na borda da pálpebra`,
+  ],
   'point-out-of-order': (facts) => [
     `${first(facts)} está do lado errado de ${list(facts.points.slice(1))}, ao contrário do que é em todo rosto, por ${percent(facts)} da distância entre os olhos`,
     `Confira primeiro ${first(facts)}, depois ${list(facts.points.slice(1))}; um ponto pode estar no lugar de outro`,

@@ -27,6 +27,7 @@ const titles: Record<string, string> = {
   'unit-by-hand': t('A unit set by hand'),
   'point-on-other-rim': t('A point on the other lip or lid'),
   'point-off-lid-edge': t('A point on the fold of a lid'),
+  'point-on-eye': t('A point on the eye'),
 };
 
 /** "lips-joined" -> "Lips joined". */

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "core/anatomy/point_lookup.h"
+#include "core/geometry/surface.h"
+#include "core/types/model.h"
+#include "core/types/rig.h"
+
+namespace semblante::testing {
+
+/// Of the ball.
+inline constexpr double sculpted_radius = 1.2;
+
+/// The upper edge of the opening: an arc from corner to corner, 0.35 high; the lower one is its mirror image.
+inline double sculpted_edge(double x) { return 0.35 * (1.0 - x * x); }
+
+/// One sheet of skin over a ball of radius 1.2 about the origin, with an opening two units wide in which the ball is
+/// seen; skin around it stands `step` before the ball.
+struct SculptedEye {
+  explicit SculptedEye(double step) {
+    constexpr int columns = 60;
+    constexpr int rows = 48;
+    for (int r = 0; r <= rows; ++r) {
+      for (int c = 0; c <= columns; ++c) {
+        const double x = -1.15 + 2.3 * c / columns;
+        const double y = -0.7 + 1.4 * r / rows;
+        const bool is_eye = std::abs(x) < 1.0 && std::abs(y) < sculpted_edge(x);
+        const double z = std::sqrt(std::max(0.0, sculpted_radius * sculpted_radius - x * x - y * y));
+        model.positions.emplace_back(x, y, z + (is_eye ? 0.0 : step));
+      }
+    }
+    const auto at = [](int r, int c) { return static_cast<std::uint32_t>(r * (columns + 1) + c); };
+    for (int r = 0; r < rows; ++r) {
+      for (int c = 0; c < columns; ++c) {
+        model.triangles.push_back({at(r, c), at(r, c + 1), at(r + 1, c + 1)});
+        model.triangles.push_back({at(r, c), at(r + 1, c + 1), at(r + 1, c)});
+      }
+    }
+    surface = build_surface(model);
+    parts.emplace_back().role = PartRole::skin;
+    // The rows above and below the opening, and the columns beside it.
+    mark("3.1", 0.0, sculpted_edge(0.0) + 0.03);
+    mark("3.3", 0.0, -sculpted_edge(0.0) - 0.03);
+    mark("3.7", 1.02, 0.0);
+    mark("3.11", -1.02, 0.0);
+  }
+
+  void mark(const char* name, double x, double y) {
+    const auto id = parse_feature_point(name).value();
+    std::erase_if(points, [id](const SurfacePoint& p) { return p.id == id; });
+    SurfaceVertexId best(0);
+    const auto off = [&](SurfaceVertexId v) {
+      return std::hypot(surface.positions[v.value()].x - x, surface.positions[v.value()].y - y);
+    };
+    for (std::uint32_t v = 0; v < surface.vertex_count(); ++v) {
+      if (off(SurfaceVertexId(v)) < off(best)) best = SurfaceVertexId(v);
+    }
+    points.push_back({id, best, surface.positions[best.value()]});
+    std::sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+  }
+
+  [[nodiscard]] const SurfacePoint& point(const char* name) const { return *point_named(points, name); }
+
+  Model model;
+  Surface surface;
+  std::vector<Part> parts;
+  std::vector<SurfacePoint> points;
+};
+
+}  // namespace semblante::testing
