@@ -7,6 +7,7 @@
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <glm/vec2.hpp>
 
 #include "core/anatomy/front_points.h"
 #include "core/anatomy/joined_rims.h"
@@ -39,6 +40,8 @@ constexpr double about = 0.26;           ///< largest claimed radius of `medium`
 // Of an eye that is modelled in the skin.
 /// A proposed corner stays if it is nearer than this to where the lids are seen to meet.
 constexpr double near_corner = 0.06;
+/// A proposed pupil stays if it is nearer than this to the middle of the eye that is seen.
+constexpr double near_middle = 0.05;
 /// The edges that are seen are not those of this eye if they are farther than this from a marked point.
 constexpr double near_marked = 0.15;
 /// The greatest distance of a point of a lid from the middle between the corners, as a share of the eye's width.
@@ -324,6 +327,24 @@ class Proposer {
       settle(move.id, {face_.at(move.vertex), move.vertex}, ProposalMethod::shape,
              std::max(guesses_[move.id]->error, 0.5 * off));
     }
+    center_pupil(index_of(eye == 0 ? "3.5" : "3.6"), rims);
+  }
+
+  /// A proposed pupil, which was beside the middle of an eye whose lids were elsewhere: to its middle.
+  void center_pupil(std::size_t id, const ModelledRims& rims) {
+    const auto at = proposal_of(id);
+    if (at == proposals_.points.end()) return;
+    const ModelledRims::Column& middle = rims.columns[rims.columns.size() / 2];
+    glm::dvec3 place = 0.5 * (middle.upper + middle.lower);
+    const auto aside = [&](SurfaceVertexId v) {
+      return glm::distance(glm::dvec2(face_.at(v.value())), glm::dvec2(place));
+    };
+    const auto nearest = std::min_element(rims.of_eye.begin(), rims.of_eye.end(),
+                                          [&](SurfaceVertexId a, SurfaceVertexId b) { return aside(a) < aside(b); });
+    if (nearest != rims.of_eye.end()) place.z = face_.at(nearest->value()).z;
+    if (glm::distance(*settled_[id], place) < near_middle) return;
+    proposals_.points.erase(at);
+    settle(id, {place, std::nullopt}, ProposalMethod::shape, guesses_[id]->error);
   }
 
   /// Adds a move to the vertex nearest to `place`, of a proposed point that is `off` it or on the eye. False if the

@@ -112,6 +112,16 @@ TEST(ProposeModelledRims, LidsOfAnEyeThatIsHigherThanTheOtherAreOnItsRims) {
     EXPECT_EQ(proposal(proposals, name).method, ProposalMethod::shape) << name;
 }
 
+TEST(ProposeModelledRims, ThePupilOfAnEyeThatIsHigherThanTheOtherIsInItsMiddle) {
+  const Sculpture head(0.08);
+  const glm::vec3 pupil = proposal(head.propose(head.model().triangles), "3.6").point.position;
+  EXPECT_NEAR(head.in_right_eye(pupil).x, 0.0, 0.15);
+  EXPECT_NEAR(head.in_right_eye(pupil).y, 0.0, 0.1);
+  EXPECT_NEAR(pupil.z, 0.0, 0.02);
+  const glm::vec3 before = proposal(head.propose({}), "3.6").point.position;
+  EXPECT_GT(std::abs(head.in_right_eye(before).y), 0.2) << "the mirror image is elsewhere";
+}
+
 TEST(ProposeModelledRims, MirrorImagesOnTheRimsStay) {
   const Sculpture head(0.08, 0.0);
   const Proposals proposals = head.propose(head.model().triangles);
