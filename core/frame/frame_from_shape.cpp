@@ -51,7 +51,7 @@ class ShapeGuess {
 
   /// glTF defines the axes of a model; they are used unless the file contradicts them.
   bool stands_by_rule() {
-    if (!is_gltf() || (up_ && *up_ != Direction::plus_y)) return false;
+    if (!is_gltf() || (up_ && *up_ != Direction::plus_y) || (across_ && *across_ != 0)) return false;
     say("glTF models stand along +Y and face +Z");
     return true;
   }

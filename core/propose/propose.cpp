@@ -216,8 +216,11 @@ class Proposer {
     if (!nearest) return refuse(id, "every vertex of the " + name_of(role) + " already has a point");
     const auto& [vertex, doubt] = *nearest;
     const double off = glm::distance(face_.at(vertex), place);
-    if (!is_near(face_.at(vertex), place, error))
-      return refuse(id, "the model has no surface at the expected position");
+    if (!is_near(face_.at(vertex), place, error)) {
+      return refuse(id, has_surface_near(role, place, error)
+                            ? "the surface has no free vertex that fits this point at its expected position"
+                            : "the model has no surface at the expected position");
+    }
     settle(id, {face_.at(vertex), vertex}, images_[id] ? ProposalMethod::mirror : ProposalMethod::proportion,
            std::max(error, 0.5 * off), doubt);
   }
@@ -392,6 +395,14 @@ class Proposer {
   /// Whether a place of the surface may be the point expected at `place`.
   static bool is_near(const glm::dvec3& of_surface, const glm::dvec3& place, double error) {
     return glm::distance(of_surface, place) <= 0.15 + error;
+  }
+
+  /// Whether there is any surface near a place: with vertices that have a point, or are of the other lip or lid.
+  [[nodiscard]] bool has_surface_near(PartRole role, const glm::dvec3& place, double error) const {
+    const auto vertex = face_.nearest(role, place);
+    if (vertex && is_near(face_.at(*vertex), place, error)) return true;
+    const auto between = face_.nearest_between(role, place, false);
+    return between && is_near(*between, place, error);
   }
 
   /// On a coarse mesh: a place between vertices that is clearly nearer to the expected one than `nearest`, the vertex

@@ -97,7 +97,7 @@ TEST_F(Sheet, Propose_WritesAllPointsMarked_AndAgainFromThePlacedOnes) {
   ASSERT_TRUE(all["points"].contains("5.1"));
   EXPECT_EQ(all["points"]["5.1"]["proposed"], true);
   // A sheet without a mouth: all that is near the lower lip's place is as near to the upper lip along the surface.
-  EXPECT_EQ(all["not_proposed"]["8.2"], "the model has no surface at the expected position");
+  EXPECT_EQ(all["not_proposed"]["8.2"], "the surface has no free vertex that fits this point at its expected position");
   EXPECT_EQ(all["not_proposed"]["6.1"], "the model has no tongue");
   // The file can be given again; what was proposed in it is proposed anew.
   const Outcome again = run_semblante({"propose", model, "--points", work.path("all.json")});

@@ -148,6 +148,22 @@ TEST(FrameFromShape, AxesThatTheShapeRulesOut_AreNotAssumed) {
   }
 }
 
+// A game's character exported as it stands there; the rule of glTF would have it look to a side.
+TEST(FrameFromShape, AGltfThatLooksToASide_IsNotSure) {
+  const auto guess_of = [](const Axes& axes) {
+    Model model = turned(skull(20.0F, -20.0F, true), axes);
+    model.format = "glb";
+    return guess_frame(model, build_surface(model));
+  };
+  EXPECT_TRUE(guess_of({}).axes_sure);
+  const Axes of_games{Direction::plus_z, Direction::plus_x}, sideways{Direction::plus_y, Direction::minus_x};
+  for (const Axes& axes : {of_games, sideways}) {
+    const ModelFrame guess = guess_of(axes);
+    EXPECT_FALSE(guess.axes_sure);
+    EXPECT_EQ(guess.axes, axes) << guess.reasons.back();
+  }
+}
+
 TEST(FrameFromShape, ACube_IsTakenAsItLies) {
   Model cube;
   for (int i = 0; i < 8; ++i) cube.positions.emplace_back(i & 1, i >> 1 & 1, i >> 2);

@@ -40,6 +40,7 @@ export const portugueseWork: Sentences = {
   skin: 'pele',
   'every vertex of the {role} already has a point': 'todo vértice desta parte ({role}) já tem um ponto',
   'the model has no surface at the expected position': 'o modelo não tem superfície na posição esperada',
+  'the surface has no free vertex that fits this point at its expected position': 'a superfície não tem, na posição esperada, um vértice livre que sirva para este ponto',
 
   // Doubts about a proposed point.
   'the surface is too coarse here to distinguish {sides}': 'aqui a superfície é grosseira demais para distinguir {sides}',
