@@ -115,7 +115,8 @@ std::string consequences(const Losses& losses, const std::vector<FeaturePointId>
   if (!losses.units.empty())
     add(names(losses.units, 0) + " cannot be measured, so FAPs, visemes and expressions in that unit have no effect");
   if (!losses.faps.empty())
-    add((losses.faps.size() == 1 ? "FAP " : "FAPs ") + ranges(losses.faps) + " have no effect there");
+    add(losses.faps.size() == 1 ? "FAP " + ranges(losses.faps) + " has no effect there"
+                                : "FAPs " + ranges(losses.faps) + " have no effect there");
   if (!losses.visemes.empty())
     add("part of these visemes is lost: " + names(losses.visemes, viseme_library().size() - 1));
   if (!losses.expressions.empty())

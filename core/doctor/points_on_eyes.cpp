@@ -42,7 +42,7 @@ std::vector<Finding> find_points_on_modelled_eyes(const Subject& head) {
     finding.move = Move{on_eye.point.id, to, edge};
     finding.remedy =
         "move " + to_string(on_eye.point.id) + " to vertex " + std::to_string(to.value()) + ", at the " + place;
-    finding.measured = {"distance from the " + place + " as a fraction of ES0", share, 0.0};
+    finding.measured = {"distance from the edge of the lids as a fraction of ES0", share, 0.0};
     findings.push_back(std::move(finding));
   }
   return findings;

@@ -194,6 +194,7 @@ const measures: Readonly<Record<string, string>> = {
   "degrees between the face's axes and the model's": 'graus entre os eixos do rosto e os do modelo',
   "degrees between the face's plane of symmetry and the model's": 'graus entre o plano de simetria do rosto e o do modelo',
   'distance from the face as a multiple of ES0': 'distância do rosto como múltiplo de ES0',
+  'distance from the edge of the lids as a fraction of ES0': 'distância da borda das pálpebras como fração de ES0',
   'distance from the symmetric place as a fraction of ES0': 'distância do lugar simétrico como fração de ES0',
   'distance of the lids as a fraction of ES0': 'distância entre as pálpebras como fração de ES0',
   'distance on the wrong side as a fraction of ES0': 'distância do lado errado como fração de ES0',
