@@ -42,6 +42,22 @@ EyePlace place_of(const PaintedEye& eye, const glm::vec3& p) {
   return {{glm::dot(d, left), glm::dot(d, up)}, glm::dot(d, eye.axis)};
 }
 
+/// Of the nearest place of a triangle, seen along the axis.
+float distance_from_axis(const std::array<EyePlace, 3>& corners) {
+  float nearest = std::numeric_limits<float>::infinity();
+  std::array<bool, 3> is_left{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    const glm::vec2& from = corners[c].across;
+    const glm::vec2 edge = corners[(c + 1) % 3].across - from;
+    const float length = glm::dot(edge, edge);
+    const float t = length > 0.0F ? glm::clamp(-glm::dot(from, edge) / length, 0.0F, 1.0F) : 0.0F;
+    nearest = std::min(nearest, glm::length(from + t * edge));
+    is_left[c] = edge.x * from.y - edge.y * from.x < 0.0F;
+  }
+  const bool is_around = is_left[0] == is_left[1] && is_left[1] == is_left[2];
+  return is_around ? 0.0F : nearest;
+}
+
 bool can_be_painted(const PaintedEye& eye) {
   // An axis along y has no left; no eye looks there at rest.
   return eye.iris_radius > 0.0F && std::abs(eye.axis.y) < 0.9F;
@@ -107,22 +123,34 @@ class EyePainter {
     return {&*eye, is_cornea ? Paint::cornea : Paint::eye, plain == Plain::iris, is_inner_wall(*eye, corners)};
   }
 
+  /// Whether a triangle is of the front of an eye: of a ball of few triangles also one that faces forward and has some
+  /// of the iris on it, but a corner behind the pivot.
+  [[nodiscard]] bool is_of_front(const PaintedEye& eye, const Triangle& corners) const {
+    std::array<EyePlace, 3> places;
+    for (std::size_t c = 0; c < 3; ++c) places[c] = place_of(eye, model_.positions[corners[c]]);
+    const auto behind = std::count_if(places.begin(), places.end(), [](const auto& p) { return p.along <= 0.0F; });
+    if (behind == 0 || behind == 3) return behind == 0;
+    const FromPivot triangle = from_pivot(eye, corners);
+    const double outwards = glm::dot(triangle.normal, triangle.middle);
+    if (!(outwards * glm::dot(triangle.normal, glm::dvec3(eye.axis)) > 0.0)) return false;
+    return distance_from_axis(places) < eye.iris_radius;
+  }
+
   /// In radii of the iris; nothing of the front of an eye is farther from its axis.
   [[nodiscard]] float reach(const PaintedEye& eye, const Triangle& corners) const {
+    const bool is_front = is_of_front(eye, corners);
     float farthest = 1.0F;
     for (const std::uint32_t v : corners) {
       const EyePlace place = place_of(eye, model_.positions[v]);
-      if (place.along > 0.0F) farthest = std::max(farthest, glm::length(place.across) / eye.iris_radius);
+      if (is_front || place.along > 0.0F) farthest = std::max(farthest, glm::length(place.across) / eye.iris_radius);
     }
     return farthest;
   }
 
-  /// On a texture that shows `span` radii of the iris. Empty behind the pivot: there a place would be that of one in
-  /// front.
-  [[nodiscard]] std::optional<glm::vec2> texture_place(const PaintedEye& eye, std::uint32_t vertex, float span) const {
-    const EyePlace place = place_of(eye, model_.positions[vertex]);
-    if (place.along <= 0.0F) return std::nullopt;
-    const glm::vec2 p = place.across / (eye.iris_radius * span);
+  /// On a texture that shows `span` radii of the iris, of a triangle of the front. Behind it a place would be that of
+  /// one in front.
+  [[nodiscard]] glm::vec2 texture_place(const PaintedEye& eye, std::uint32_t vertex, float span) const {
+    const glm::vec2 p = place_of(eye, model_.positions[vertex]).across / (eye.iris_radius * span);
     return glm::clamp(glm::vec2(0.5F + 0.5F * p.x, 0.5F - 0.5F * p.y), glm::vec2(0.0F), glm::vec2(1.0F));
   }
 
@@ -295,13 +323,14 @@ void set_uvs(const Model& model, const EyePainter& painter, std::span<const Pain
       uvs.set_all(t, black_place);
       continue;
     }
-    std::array<std::optional<glm::vec2>, 3> places;
-    for (std::size_t c = 0; c < 3; ++c) places[c] = painter.texture_place(*painted[t].eye, model.triangles[t][c], span);
-    if (!places[0] || !places[1] || !places[2]) {
+    if (!painter.is_of_front(*painted[t].eye, model.triangles[t])) {
       uvs.set_all(t, painted[t].is_inside && painted[t].paint == Paint::eye ? black_place : white_place);
       continue;
     }
-    for (std::size_t c = 0; c < 3; ++c) uvs.set(t, static_cast<int>(c), model.triangles[t][c], *places[c]);
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::uint32_t vertex = model.triangles[t][c];
+      uvs.set(t, static_cast<int>(c), vertex, painter.texture_place(*painted[t].eye, vertex, span));
+    }
   }
 }
 

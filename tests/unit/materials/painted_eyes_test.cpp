@@ -157,6 +157,43 @@ Eyes flat_eyes(float half_width, float half_height) {
   return eyes;
 }
 
+// An eye of a game's character: a pyramid whose base is behind the pivot, so that each of its front triangles is too.
+TEST(PaintedEyes, OnABallOfFewTriangles_TheIrisIsWhole) {
+  Eyes eyes;
+  eyes.model = {};
+  for (const float side : {30.0F, -30.0F}) {
+    const auto first = static_cast<std::uint32_t>(eyes.model.positions.size());
+    for (const glm::vec3& p :
+         {glm::vec3(2.0F, 1.0F, 12.0F), glm::vec3(12.0F, -12.0F, -1.0F), glm::vec3(12.0F, 12.0F, -1.0F),
+          glm::vec3(-12.0F, 12.0F, -1.0F), glm::vec3(-12.0F, -12.0F, -1.0F), glm::vec3(0.0F, 0.0F, -12.0F)})
+      eyes.model.positions.push_back(p + glm::vec3(side, 0.0F, 0.0F));
+    for (std::uint32_t k = 0; k < 4; ++k) {
+      const std::uint32_t a = first + 1 + k;
+      const std::uint32_t b = first + 1 + (k + 1) % 4;
+      eyes.model.triangles.push_back({first, a, b});
+      eyes.model.triangles.push_back({first + 5, b, a});
+    }
+  }
+  eyes.model.primitives.push_back({"", -1, 0, static_cast<std::uint32_t>(eyes.model.triangles.size())});
+  eyes.surface = build_surface(eyes.model);
+  eyes.parts.assign(eyes.surface.part_count(), {});
+  eyes.parts[eyes.surface.part_of[0].value()].role = PartRole::left_eye;
+  eyes.parts[eyes.surface.part_of[6].value()].role = PartRole::right_eye;
+  eyes.paint();
+  const Pixels pixels(eyes.model.images.back());
+  ASSERT_EQ(eyes.model.uv_triangles.size(), 16U);
+  for (std::size_t t = 0; t < 8; t += 2) {
+    // The middle of the edge from the tip to a corner, at 8 or 9 of 17 from the axis, and the tip, which is on the
+    // iris.
+    const auto uv = [&](std::size_t c) { return eyes.model.uvs[eyes.model.uv_triangles[t][c]]; };
+    EXPECT_LT(pixels.at(uv(0)), 160.0) << t;
+    EXPECT_GT(pixels.at(0.4F * uv(0) + 0.6F * uv(1)), 180.0) << t;
+    // The back shows none of it.
+    for (std::size_t c = 0; c < 3; ++c)
+      EXPECT_GT(pixels.at(eyes.model.uvs[eyes.model.uv_triangles[t + 1][c]]), 180.0) << t;
+  }
+}
+
 TEST(PaintedEyes, AFlatDiscAboutThePupil_IsAllIris) {
   // The lids of the second one are half closed: by them the iris has a radius of 6.
   for (const float half : {7.0F, 11.0F}) {
