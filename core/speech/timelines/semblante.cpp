@@ -15,7 +15,7 @@ bool has_failed(const JsonCursor& cursor, const TimelineBuilder& builder) {
 }
 
 /// Returns whether all went well, as the functions below do.
-bool read_phonemes(const JsonCursor& root, TimelineBuilder& builder) {
+bool read_json_phonemes(const JsonCursor& root, TimelineBuilder& builder) {
   for (const JsonCursor& phoneme : root.member("phonemes").elements(1, max_timeline_events)) {
     const std::string stress = phoneme.text_or("stress", "none");
     const auto* const at = std::find(stress_names.begin(), stress_names.end(), stress);
@@ -76,7 +76,7 @@ bool read_marks(const JsonCursor& root, TimelineBuilder& builder) {
 
 void read_semblante(std::string_view file, TimelineBuilder& builder) {
   read_object(file, builder, [&](const JsonCursor& root) {
-    if (!read_phonemes(root, builder)) return;
+    if (!read_json_phonemes(root, builder)) return;
     // Places are those of the text: a file without it names its words alone.
     const auto whole = root.optional_member("text");
     if (whole) builder.whole_text(whole->text(max_utterance_text_bytes));
