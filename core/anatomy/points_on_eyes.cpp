@@ -119,8 +119,7 @@ std::vector<PointOnEye> find_points_on_eyes(const Surface& surface, std::span<co
   const ModelledEyes after = find_modelled_eyes(surface, triangles, parts, moved);
   for (const std::size_t eye : {0U, 1U}) {
     const mpeg4::Opening& lids = mpeg4::lids_of(eye);
-    const bool closes_then = after[eye] || !are_joined(surface, lids, moved);
-    if (before[eye] || !closes_then) std::erase_if(all, [&](const auto& p) { return p.lids == &lids; });
+    if (before[eye] || !after[eye]) std::erase_if(all, [&](const auto& p) { return p.lids == &lids; });
   }
   return all;
 }

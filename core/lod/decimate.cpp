@@ -119,6 +119,7 @@ std::vector<CollapseLimit> limits_within(const std::vector<CollapseHistory>& gro
   const double least_share = least_of_share * share;
   const double price = price_within(groups, corners, least_share);
   std::vector<CollapseLimit> limits;
+  limits.reserve(groups.size());
   for (const CollapseHistory& group : groups) limits.push_back(limit_of(group, price, least_share));
   return limits;
 }

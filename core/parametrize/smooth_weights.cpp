@@ -105,7 +105,7 @@ std::vector<KrigingSite> sites_of_points(const PointDistances& distances, std::s
 /// The rows of the vertices of one part, cavities apart.
 class SmoothRows {
  public:
-  SmoothRows(const Surface& surface, const PointDistances& distances, std::vector<KrigingSite> of_points,
+  SmoothRows(const Surface& surface, const PointDistances& distances, const std::vector<KrigingSite>& of_points,
              std::span<const MarginSite> margins, double unit, const WeightPrior& prior)
       : surface_(surface),
         distances_(distances),
@@ -213,9 +213,9 @@ double weight_unit(const PointDistances& distances, double eye_separation) {
 WeightTable<double> smooth_part_weights(const Surface& surface, const PointDistances& distances, double eye_separation,
                                         std::span<const MarginSite> margins, const WeightPrior& prior,
                                         const ModelledEyes& modelled) {
-  std::vector<KrigingSite> of_points = sites_of_points(distances, margins);
+  const std::vector<KrigingSite> of_points = sites_of_points(distances, margins);
   const double unit = unit_length(of_points, eye_separation);
-  SmoothRows rows(surface, distances, std::move(of_points), margins, unit, prior);
+  SmoothRows rows(surface, distances, of_points, margins, unit, prior);
   const PartId part = surface.part_of[distances.members.front().value()];
   const std::vector<Cavity> cavities = cavities_with_target(surface, part, distances.points, modelled);
   const CavityRows in_cavities(surface, distances, cavities, unit, rows);

@@ -47,7 +47,7 @@ class [[nodiscard]] Result {
   Result(Error error) : error_(std::make_unique<Error>(std::move(error))) {}  // NOLINT(google-explicit-constructor)
   Result(const Result& other)
       : value_(other.value_), error_(other.error_ ? std::make_unique<Error>(*other.error_) : nullptr) {}
-  Result(Result&&) = default;
+  Result(Result&&) noexcept = default;
   Result& operator=(Result other) {
     value_ = std::move(other.value_);
     error_ = std::move(other.error_);
