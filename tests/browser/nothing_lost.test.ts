@@ -25,6 +25,7 @@ describe('nothing is lost', () => {
     const studio = await StudioPage.open(browser, server.url, { width: 1280, height: 720 });
     const { page } = studio;
     await studio.waitForStage('ready');
+    await page.locator('[data-model=sample] .thumb img').waitFor();
     await studio.drop(sampleHead, 'draft.glb');
     await studio.waitForState('ready');
     await studio.waitForStage('ready');
@@ -36,6 +37,7 @@ describe('nothing is lost', () => {
 
     await page.reload();
     await page.getByText('Your 2 unsaved points are back.').waitFor();
+    await page.locator('[data-model=sample]:not(.selected) .thumb img').waitFor(); // its picture too
     expect(await selected(studio)).toBe(head);
     await page.getByText('2 of 84 placed').waitFor();
     await page.getByRole('button', { name: 'Save 2 changes' }).waitFor();

@@ -30,6 +30,27 @@ describe('a server that asks for tokens', () => {
     await studio.context.close();
   });
 
+  test('SignedOut_ByTheServer_SaysSoAndSignsInOverThePage', async () => {
+    const studio = await StudioPage.open(browser, `${server.url}/#token=${server.token}`, { allowed });
+    const { page, context } = studio;
+    await studio.waitForStage('ready');
+    const text = page.locator('#panel-animate textarea').first();
+    await text.fill('This stays');
+    await context.clearCookies(); // the server answers as to a token that has been revoked
+    await page.locator('#tab-live').click();
+    const note = page.locator('.signed-out-note');
+    await note.getByRole('button', { name: 'Sign in' }).click();
+    const dialog = page.getByRole('dialog');
+    await dialog.getByLabel('Token').fill(server.token);
+    await dialog.getByRole('button', { name: 'Sign in' }).click();
+    await note.waitFor({ state: 'hidden' });
+    await dialog.waitFor({ state: 'detached' });
+    await page.locator('.stream').first().waitFor();
+    expect(await text.inputValue()).toBe('This stays');
+    expect(studio.errors).toEqual([]);
+    await studio.context.close();
+  });
+
   test('Invitation_InTheAddress_SignsInAndLeavesTheAddress', async () => {
     const studio = await StudioPage.open(browser, `${server.url}/#token=${server.token}`, { allowed, width: 390, height: 780 });
     await studio.waitForStage('ready');

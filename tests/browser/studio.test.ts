@@ -167,6 +167,73 @@ describe('studio', () => {
     await studio.close();
   });
 
+  test('Studio_HeadThatCannotBeRead_OffersAnotherAndGoes', async () => {
+    const studio = await StudioPage.open(browser, server.url, { width: 1280, height: 720, allowed: /status of 4\d\d/ });
+    const { page } = studio;
+    await studio.waitForStage('ready');
+    await studio.dropText('letter.txt', 'Dear reader, this is not a head.');
+    const message = page.locator('.toast-error p').first();
+    await message.waitFor();
+    expect(await message.innerText()).toBe('The file is none of GLB, VRM, glTF, OBJ, PLY, STL, ZIP');
+    await studio.dropText('broken.obj', 'v 0 0 zebra\n');
+    const card = page.locator('.stage-card.error');
+    await card.getByRole('button', { name: 'Upload a head' }).waitFor();
+    await page.locator('#tab-points').click();
+    await page.locator('#panel-points').getByText('This head could not be read').waitFor();
+    expect(await page.getByRole('button', { name: 'Start' }).count(), 'there is nothing to place points on').toBe(0);
+    // Opened from the still model of another head too.
+    await page.locator('[data-model=sample] .open').click();
+    await page.locator('#tab-points').click();
+    await studio.waitForStage('ready');
+    await page.locator('.head', { hasText: 'broken' }).locator('.open').click();
+    await card.getByText('The model file cannot be read').waitFor();
+    await studio.drawn(10);
+    expect(await card.innerText()).toContain("'zebra' in place of a number");
+    await card.getByRole('button', { name: 'Take it off the list' }).click();
+    await page.locator('.head', { hasText: 'broken' }).waitFor({ state: 'detached' });
+    await studio.waitForStage('ready');
+    expect(studio.errors).toEqual([]);
+    await studio.close();
+  });
+
+  test('Studio_FileDroppedOnADialog_IsNotOpenedByTheBrowser', async () => {
+    const studio = await StudioPage.open(browser, server.url);
+    const { page, context } = studio;
+    await studio.waitForStage('ready');
+    await page.locator('#tab-animate').press('?');
+    await page.locator('dialog[open]').waitFor();
+    const text = join(scratch, 'letter.txt');
+    writeFileSync(text, 'Dear reader');
+    const devtools = await context.newCDPSession(page);
+    const data = { items: [], files: [text], dragOperationsMask: 1 };
+    const [x, y] = [440, 280];
+    for (const type of ['dragEnter', 'dragOver', 'drop'] as const) await devtools.send('Input.dispatchDragEvent', { type, x, y, data });
+    await studio.drawn(5); // the browser opens it in another tab, or here
+    expect([context.pages().length, page.url().startsWith(server.url)]).toEqual([1, true]);
+    expect(studio.errors).toEqual([]);
+    await studio.close();
+  });
+
+  test('Studio_ManyHeads_NewestFirstAndFoundByName', async () => {
+    const studio = await StudioPage.open(browser, server.url, { width: 1280, height: 720 });
+    const { page } = studio;
+    await studio.waitForStage('ready');
+    const [sample] = ((await (await fetch(`${server.url}/v1/models`)).json()) as { models: object[] }).models;
+    const many = Array.from({ length: 30 }, (_, i) => ({ ...sample, id: `head${i}`, name: `Head number ${i}`, created: new Date(Date.UTC(2040, 0, 1 + i)).toISOString() }));
+    await page.route(/\/v1\/models\?limit/, (route) => route.fulfill({ json: { models: [sample, ...many], next: null } }));
+    await page.reload();
+    await studio.waitForStage('ready');
+    await page.locator('.head').nth(30).waitFor({ state: 'attached' });
+    expect(await page.locator('.head strong').first().innerText()).toBe('Head number 29');
+    const list = await page.locator('.heads').boundingBox();
+    expect(list!.height, 'the list has most of the height').toBeGreaterThan(360);
+    await page.getByRole('searchbox', { name: 'Search heads' }).fill('29 number');
+    await page.locator('.head').nth(1).waitFor({ state: 'detached' });
+    expect(await page.locator('.head strong').allInnerTexts()).toEqual(['Head number 29']);
+    expect(studio.errors).toEqual([]);
+    await studio.close();
+  });
+
   test('Studio_VrmFile_IsOfferedAndRead', async () => {
     const studio = await StudioPage.open(browser, server.url);
     const { page } = studio;

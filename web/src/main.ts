@@ -56,7 +56,7 @@ import { saveFile } from './ui/shared/save_file.ts';
 import { scansBox } from './ui/scans/scans_box.ts';
 import { ScansModel } from './ui/scans/scans_model.ts';
 import { SceneView } from './ui/stage/scene.ts';
-import { letIn, signOutButton } from './ui/page/sign_in.ts';
+import { letIn, signedOutNote, signOutButton } from './ui/page/sign_in.ts';
 import { Shelf } from './ui/heads/shelf.ts';
 import { offlineNote } from './ui/page/offline_note.ts';
 import { addSampleHead } from './ui/page/sample_head.ts';
@@ -74,6 +74,7 @@ import { Studio } from './ui/shared/studio.ts';
 import { UnitsPanel } from './ui/units/units_panel.ts';
 import { themeButton } from './ui/page/theme.ts';
 import { takeThumbnails } from './ui/heads/thumbnails.ts';
+import { forgetThumbnails, ThumbnailStore } from './ui/heads/thumbnail_store.ts';
 import { keepOffline } from '../offline/register.ts';
 import { language, loadServerWords, t } from './words/words.ts';
 import { Toasts } from './ui/shared/toast.ts';
@@ -82,7 +83,7 @@ import { Toasts } from './ui/shared/toast.ts';
 function main(root: HTMLElement, base: string, session: Session | null, theme: HTMLElement): void {
   const toasts = new Toasts();
   const api = new Api(base);
-  const extras = h('div', { class: 'row' }, signOutButton(api.base, session), keySheetButton(), languageSelect(), theme);
+  const extras = h('div', { class: 'row' }, signOutButton(api.base, session, forgetThumbnails), keySheetButton(), languageSelect(), theme);
   const canvas = h('canvas', { class: 'canvas' });
 
   const studio = new Studio(api, toasts);
@@ -189,11 +190,12 @@ function main(root: HTMLElement, base: string, session: Session | null, theme: H
     live: livePanel.element,
   };
   const back = async (): Promise<void> => {
+    toasts.serverIsBack();
     await Promise.all([studio.start(), live.refresh()]);
     if (scene.state.value.kind === 'failed' && studio.selected.value) void scene.open(studio.selected.value);
   };
   extras.prepend(shelf.addButton('narrow-only'));
-  const layout = makeLayout(studio, panels, [stagePanel.element, compare.seat], extras, offlineNote(api.base, () => void back()));
+  const layout = makeLayout(studio, panels, [stagePanel.element, compare.seat], extras, [offlineNote(api.base, () => void back()), signedOutNote(api.base, () => void back())]);
   layout.append(progressSaid(studio, scene), toasts.element);
   root.replaceChildren(layout);
 
@@ -204,6 +206,7 @@ function main(root: HTMLElement, base: string, session: Session | null, theme: H
     driver.setFace(performer);
   });
   stagePanel.onUpload = shelf.choose;
+  stagePanel.onRemove = (model) => void studio.remove(model);
   stagePanel.onSample = () => void addSampleHead(studio, points, parametrizer);
   const example = { playing: clip.examplePlays, toggle: () => void clip.toggleExample() };
   stepsBox({ studio, upload: shelf.choose, example, driver, streamSpeech: streamSpeech.state }, shelf.element, animate.element);
@@ -215,7 +218,7 @@ function main(root: HTMLElement, base: string, session: Session | null, theme: H
   showSelected(studio, points, scene);
   translateServer(studio, fit, scene);
   hideParts(canvas, scene, studio, hidden);
-  takeThumbnails(studio, scene, shelf);
+  takeThumbnails(studio, scene, shelf, new ThumbnailStore());
   const shown = scene.state.watch(({ kind }) => {
     if (kind !== 'ready') return;
     queueMicrotask(() => shown());

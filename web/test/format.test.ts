@@ -1,5 +1,9 @@
 import { describe, expect, test } from 'vitest';
-import { formatBytes } from '../src/ui/shared/format.ts';
+import { formatBytes, withShortSizes } from '../src/ui/shared/format.ts';
+
+test('WithShortSizes_LongNumbersOfBytes_AreShort', () => {
+  expect(withShortSizes('At most 268435456 bytes are accepted here, byte 12 of 100 bytes')).toBe('At most 268 MB are accepted here, byte 12 of 100 bytes');
+});
 
 describe('formatBytes', () => {
   test('FormatBytes_BelowAThousand_CountsBytes', () => expect(formatBytes(999)).toBe('999 B'));

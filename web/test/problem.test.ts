@@ -1,5 +1,5 @@
 import { afterEach, describe, expect, test, vi } from 'vitest';
-import { featurePointOf, fieldProblems, problemFrom, titleOf, wordsOf } from '../src/net/problem.ts';
+import { adviceFor, featurePointOf, fieldProblems, problemFrom, titleOf, wordsOf } from '../src/net/problem.ts';
 
 afterEach(() => {
   vi.unstubAllGlobals();
@@ -26,6 +26,21 @@ describe('problem documents', () => {
     expect(there.fieldProblems({ ...refused, errors })).toEqual([{ pointer: '/points/2.1', detail: 'o ponto 2.1 foi dado duas vezes' }, errors[1]]);
     // A title of this page, or of a proxy, is not the server's.
     expect(there.wordsOf({ type: 'about:blank', title: 'Bad Gateway', status: 502, detail: 'none' })).toBe('none');
+  });
+
+  test('Advice_OfARefusedFile_IsGivenUnlessTheServerHasGivenIt', () => {
+    const unknown = { type: '/problems/unsupported-media-type', title: 'no', status: 415, detail: 'the file is none of GLB, VRM, glTF, OBJ, PLY, STL, ZIP' };
+    expect(adviceFor(unknown)).toContain('Blender');
+    for (const detail of [
+      'the format of the file is FBX, none of GLB, VRM, glTF, OBJ, PLY, STL, ZIP: export the head as GLB',
+      'the file is packed (RAR): send the model that is in it, or a zip',
+      'the file is a picture (JPEG), not a model',
+      'the file is a web page, not a model: download the model itself',
+      'the file is a pointer of Git LFS in place of the model: git lfs pull fetches the model',
+    ])
+      expect(adviceFor({ ...unknown, detail }), detail).toBeNull();
+    expect(adviceFor(refused)).toContain('Export the head again');
+    expect(adviceFor({ ...refused, detail: "the zip has no model but 'inner.zip': send the model that is in it" })).toBeNull();
   });
 
   test('ProblemFrom_ProblemJson_KeepsItsMembers', () => {

@@ -43,7 +43,7 @@ async function send(path: string, options: RequestOptions): Promise<Response> {
   } catch (error) {
     if (error instanceof DOMException && error.name === 'AbortError') throw error;
     noteAnswer(null);
-    throw new ApiError(unreachable(t('{method} {path} got no answer.', { method: init.method ?? 'GET', path })));
+    throw new ApiError(unreachable());
   }
   noteAnswer(response);
   if (!response.ok) {

@@ -19,11 +19,12 @@ export class ApiError extends Error {
   }
 }
 
-export const unreachable = (detail: string): Problem => ({
+/** Without an answer; `detail`: what was cut short. */
+export const unreachable = (detail?: string): Problem => ({
   type: '/problems/unreachable',
   title: t('The server does not respond'),
   status: 0,
-  detail,
+  ...(detail === undefined ? {} : { detail }),
 });
 
 const slugOf = (problem: Problem): string => problem.type.split('/').pop() ?? '';
@@ -73,13 +74,17 @@ export function featurePointOf(pointer: string | undefined): string | null {
   return match ? match[1]! : null;
 }
 
+/** Sentences of the server that say themselves what helps, or that no program helps: those of core/import/foreign_file.cpp and its zips. */
+const saysWhatHelps = /: (export|send|download|git lfs)\b|; send |, not a model$/;
+
 /** Advice for the user in one sentence, or null when there is none better than "try again". */
 export function adviceFor(problem: Problem): string | null {
   const slug = slugOf(problem);
   if (problem.status === 0) return t('Check that the server is running, then try again.');
+  if ((slug === 'malformed-model' || slug === 'unsupported-media-type') && saysWhatHelps.test(problem.detail ?? '')) return null;
   if (slug === 'malformed-model') return t('Export the head again as {anyFormat}.', { anyFormat });
   if (slug === 'unsupported-media-type') return t('Open it in the program that made it, or in Blender, and export it as GLB.');
-  if (slug === 'unauthorized') return t('Reload the page and sign in again.');
+  if (slug === 'unauthorized') return t('Sign in again.');
   if (slug === 'forbidden') return t('Ask whoever runs the server for a token that allows it.');
   if (problem.status === 413 || slug === 'limit-exceeded')
     return t('Reduce the mesh or its textures and upload it again.');

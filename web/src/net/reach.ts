@@ -12,8 +12,16 @@ export function watchReach(listener: Listener): void {
   listener(reached);
 }
 
+const refusedListeners = new Set<() => void>();
+
+/** `listener` is called when the server does not accept the token of this browser any more. */
+export function watchRefusal(listener: () => void): void {
+  refusedListeners.add(listener);
+}
+
 /** Takes the answer to a request, or null when there was none. */
 export function noteAnswer(response: Response | null): void {
+  if (response?.status === 401) for (const listener of refusedListeners) listener();
   const now = response !== null && !response.headers.has(keptHeader);
   if (now === reached) return;
   reached = now;

@@ -6,6 +6,7 @@ import { ask } from '../shared/dialog.ts';
 import { h, replace } from '../shared/dom.ts';
 import { formatPercent } from '../shared/format.ts';
 import { findingBadge } from '../shared/finding_badge.ts';
+import { listed, manyHeads, searchedHeads } from './head_order.ts';
 import { headSize } from './head_size.ts';
 import { stateInWords } from './head_state.ts';
 import { icon } from '../shared/icons.ts';
@@ -28,6 +29,16 @@ export class Shelf {
     'aria-label': t('Model files'),
   });
 
+  private readonly words = h('input', {
+    type: 'search',
+    placeholder: t('Search heads'),
+    'aria-label': t('Search heads'),
+    on: { input: () => this.draw() },
+  });
+  private readonly search = h('div', { class: 'search', hidden: true }, icon('search', 16), this.words);
+
+  private readonly low = matchMedia('(max-height: 820px)');
+
   /** Opens the chooser of model files. */
   readonly choose = (): void => this.input.click();
   /** Thumbnails as data URLs, by model id. */
@@ -48,6 +59,7 @@ export class Shelf {
         h('h2', {}, t('Heads')),
         this.addButton('wide-only'),
       ),
+      this.search,
       this.list,
       h(
         'button',
@@ -73,6 +85,11 @@ export class Shelf {
     });
     studio.activities.watch(draw);
     studio.shelf.watch(draw);
+    this.low.addEventListener('change', draw);
+    // What stands below the list takes height from it when it grows.
+    new ResizeObserver(() => {
+      if (isPartlySeen(this.list.querySelector('.selected'), this.list)) this.reveal('.selected');
+    }).observe(this.list);
   }
 
   /** A narrow page has it in its bar, since the shelf is one of the tabs there: see layout.css. */
@@ -100,9 +117,9 @@ export class Shelf {
   private uploads = 0;
 
   /** Keeps in sight what the list moves: an upload stands at its head, and a head that is new gets its place by the server's order. */
-  private followMoves(): void {
-    const { models, selected, activities } = this.studio;
-    const place = models.value.findIndex(({ id }) => id === selected.value?.id);
+  private followMoves(heads: readonly Model[]): void {
+    const { selected, activities } = this.studio;
+    const place = heads.findIndex(({ id }) => id === selected.value?.id);
     const uploads = [...activities.value.keys()].filter(isUpload).length;
     if (uploads > this.uploads) this.reveal('.uploading');
     else if (place !== this.place && isSeen(this.list.querySelector('.selected'))) this.reveal('.selected');
@@ -140,9 +157,12 @@ export class Shelf {
     const items: HTMLElement[] = [];
     for (const [key, activity] of studio.activities.value)
       if (isUpload(key)) items.push(this.uploadItem(activity));
-    for (const model of studio.models.value) items.push(this.item(model, studio.activities.value.get(model.id)));
-    if (items.length === 0) items.push(h('li', { class: 'empty' }, t('No heads yet.')));
-    this.followMoves();
+    this.search.hidden = studio.models.value.length < searchedHeads;
+    this.element.classList.toggle('many', studio.models.value.length >= manyHeads(this.low.matches));
+    const heads = listed(studio.models.value, this.search.hidden ? '' : this.words.value);
+    for (const model of heads) items.push(this.item(model, studio.activities.value.get(model.id)));
+    if (items.length === 0) items.push(h('li', { class: 'empty' }, studio.models.value.length === 0 ? t('No heads yet.') : t('No head of this name.')));
+    this.followMoves(heads);
     replace(this.list, ...items);
     if (focused) this.list.querySelector<HTMLElement>(`[data-model="${CSS.escape(focused)}"] .open`)?.focus();
   }
@@ -175,7 +195,7 @@ export class Shelf {
         h(
           'span',
           { class: 'head-text' },
-          h('strong', { dir: 'auto' }, model.name || t('Unnamed')),
+          h('strong', { dir: 'auto', title: model.name }, model.name || t('Unnamed')),
           activity
             ? h('span', { class: 'muted small' }, activity.title)
             : h(
@@ -268,6 +288,13 @@ export class Shelf {
 
 /** Whether an activity is that of a file that is being sent. */
 const isUpload = (key: string): boolean => key.startsWith('upload-');
+
+/** Whether some of an item is within the part of its list that is shown. */
+function isPartlySeen(item: Element | null, list: Element): boolean {
+  if (!item) return false;
+  const [own, shown] = [item.getBoundingClientRect(), list.getBoundingClientRect()];
+  return own.top < shown.bottom && own.bottom > shown.top;
+}
 
 /** Whether an item of the list is within the part of it that is shown. */
 function isSeen(item: Element | null): boolean {

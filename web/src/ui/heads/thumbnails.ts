@@ -1,17 +1,29 @@
 import type { SceneView } from '../stage/scene.ts';
 import type { Shelf } from './shelf.ts';
 import type { Studio } from '../shared/studio.ts';
+import type { ThumbnailStore } from './thumbnail_store.ts';
 
 const size = 112;
 /** ms for which a head has been shown: its first pictures are drawn by then, for whose programs an image at once would hold up the page. */
 const shownFor = 700;
 
-/** Gives the shelf a thumbnail of each head, taken when the head is first shown on the stage, and again when its points tell where the face is. */
-export function takeThumbnails(studio: Studio, scene: SceneView, shelf: Shelf): void {
+/**
+ * Gives the shelf a thumbnail of each head that this browser has opened, taken when the head is first shown on the stage, and again when
+ * its points tell where the face is.
+ */
+export function takeThumbnails(studio: Studio, scene: SceneView, shelf: Shelf, store: ThumbnailStore): void {
   const taken = new Set<string>();
   let timer = 0;
   let isDue = false;
   const present = (): string => `${studio.selected.value?.id}:${scene.rig !== null}`;
+  const untilListed = studio.shelf.watch(({ kind }) => {
+    if (kind !== 'ready') return;
+    queueMicrotask(() => untilListed());
+    void store.read(new Set(studio.models.value.map(({ id }) => id))).then((kept) => {
+      for (const [id, picture] of kept) if (!shelf.thumbnails.has(id)) shelf.thumbnails.set(id, picture);
+      if (kept.size > 0) shelf.draw();
+    });
+  });
   scene.state.watch(({ kind }) => {
     clearTimeout(timer);
     isDue = false;
@@ -22,7 +34,9 @@ export function takeThumbnails(studio: Studio, scene: SceneView, shelf: Shelf): 
     isDue = false;
     if (!model) return false;
     taken.add(present());
-    shelf.thumbnails.set(model.id, scene.thumbnail(size));
+    const picture = scene.thumbnail(size);
+    shelf.thumbnails.set(model.id, picture);
+    void store.keep(model.id, picture);
     shelf.draw();
     return false;
   });

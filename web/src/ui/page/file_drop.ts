@@ -15,7 +15,7 @@ export interface DropReceivers {
   speak: SpeakPanel;
 }
 
-/** Routes files and folders dropped anywhere on the page to the panels that read them. */
+/** Routes files and folders dropped anywhere on the page to the panels that read them. Call it once. */
 export function routeDrops(page: HTMLElement, { studio, points, performance, clip, speak }: DropReceivers): void {
   acceptDrops(page, async (files) => {
     const { value: tab } = studio.tab;
@@ -38,6 +38,20 @@ export function routeDrops(page: HTMLElement, { studio, points, performance, cli
     }
     void studio.upload(heads);
   });
+  refuseOtherDrops();
+}
+
+/** What is dropped where nothing takes it, as on a dialog, stays outside: a browser would open it in place of the studio. */
+function refuseOtherDrops(): void {
+  const refuse = (event: DragEvent): void => {
+    if (event.defaultPrevented || !event.dataTransfer) return;
+    const isText = !event.dataTransfer.types.includes('Files');
+    if (isText && event.target instanceof Element && event.target.closest('input, textarea, select')) return;
+    event.preventDefault();
+    event.dataTransfer.dropEffect = 'none';
+  };
+  window.addEventListener('dragover', refuse);
+  window.addEventListener('drop', refuse);
 }
 
 function acceptDrops(page: HTMLElement, take: (files: PathFile[]) => Promise<void>): void {

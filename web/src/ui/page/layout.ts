@@ -26,7 +26,7 @@ export const tabTitle = (tab: Tab): string => tabs.find((one) => one.tab === tab
 export const isNarrow = (): MediaQueryList => matchMedia('(max-width: 1080px)');
 
 /** Bar, shelf, stage and inspector; on a narrow page the shelf is one of the tabs. */
-export function makeLayout(studio: Studio, panels: Panels, stage: readonly HTMLElement[], extras: HTMLElement, note: HTMLElement): HTMLElement {
+export function makeLayout(studio: Studio, panels: Panels, stage: readonly HTMLElement[], extras: HTMLElement, notes: readonly HTMLElement[]): HTMLElement {
   const buttons = new Map<Tab, HTMLButtonElement>();
   const tabList = h('div', { class: 'tabs', role: 'tablist', 'aria-label': t('Work on the head') });
   for (const { tab, title, icon: name } of tabs) {
@@ -128,7 +128,7 @@ export function makeLayout(studio: Studio, panels: Panels, stage: readonly HTMLE
       h('span', { class: 'grow' }),
       extras,
     ),
-    note,
+    h('div', { class: 'notes' }, notes),
     shelfHome,
     h('main', { class: 'stage' }, stage),
     inspector,

@@ -1,8 +1,10 @@
 import { problemOf, wordsOf } from '../../net/problem.ts';
+import { watchRefusal } from '../../net/reach.ts';
 import { getSession, invitedToken, signIn, signOut } from '../../net/session.ts';
 import type { Problem, Session } from '../../net/types.ts';
 import { forgetKept } from '../../../offline/register.ts';
-import { h } from '../shared/dom.ts';
+import { h, replace } from '../shared/dom.ts';
+import { icon } from '../shared/icons.ts';
 import { capital } from '../shared/names.ts';
 import { t } from '../../words/words.ts';
 
@@ -29,11 +31,47 @@ export async function letIn(base: string, root: HTMLElement): Promise<Session | 
   return askForToken(base, root, reason);
 }
 
-/** Forgets the token in this browser; null on a server that does not ask for one. */
-export function signOutButton(base: string, session: Session | null): HTMLElement | null {
+/** Forgets the token in this browser, with what `forget` does; null on a server that does not ask for one. */
+export function signOutButton(base: string, session: Session | null, forget: () => void): HTMLElement | null {
   if (!session?.asks_for_tokens) return null;
-  const leave = () => void Promise.allSettled([signOut(base), forgetKept()]).then(() => location.reload());
+  const leave = () => {
+    forget();
+    void Promise.allSettled([signOut(base), forgetKept()]).then(() => location.reload());
+  };
   return h('button', { type: 'button', class: 'quiet sign-out', on: { click: leave } }, t('Sign out'));
+}
+
+/**
+ * Says that the server does not accept the token any more, which may have expired or been revoked, and lets the visitor sign in over the
+ * page as it is: nothing on it is lost. `back` is called when the server accepts requests again.
+ */
+export function signedOutNote(base: string, back: () => void): HTMLElement {
+  const note = h('div', { class: 'signed-out-note', role: 'status', hidden: true });
+  const again = async (): Promise<void> => {
+    const dialog = h('dialog', { class: 'dialog', 'aria-label': t('Sign in') });
+    const closed = new Promise<null>((resolve) => dialog.addEventListener('close', () => resolve(null)));
+    document.body.append(dialog);
+    dialog.showModal();
+    const session = await Promise.race([askForToken(base, dialog, ''), closed]);
+    dialog.remove();
+    if (session === null) return;
+    note.hidden = true;
+    back();
+  };
+  watchRefusal(() => {
+    if (!note.hidden) return;
+    note.hidden = false;
+    replace(
+      note,
+      icon('warning', 16),
+      h('strong', {}, t('You are signed out: the token has expired or was revoked.')),
+      ' ',
+      t('What is on this page stays.'),
+      ' ',
+      h('button', { type: 'button', class: 'small', on: { click: () => void again() } }, t('Sign in')),
+    );
+  });
+  return note;
 }
 
 const refusalOf = (problem: Problem): string =>

@@ -2,8 +2,9 @@ import { formatList } from '../../net/model_formats.ts';
 import { adviceFor, titleOf } from '../../net/problem.ts';
 import type { Problem } from '../../net/types.ts';
 import { h } from '../shared/dom.ts';
-import { formatPercent } from '../shared/format.ts';
+import { formatPercent, withShortSizes } from '../shared/format.ts';
 import { icon } from '../shared/icons.ts';
+import { capital } from '../shared/names.ts';
 import type { SceneState } from '../stage/scene.ts';
 import type { Activity, ShelfState } from '../shared/studio.ts';
 import { serverWords, t } from '../../words/words.ts';
@@ -18,6 +19,8 @@ export interface OverlayFacts {
   heads: boolean;
   reload: () => void;
   upload: () => void;
+  /** Takes the head that could not be read from the list; null: none is open. */
+  remove: (() => void) | null;
   /** Adds the sample head. */
   addSample: () => void;
 }
@@ -35,11 +38,15 @@ export function overlayCard(state: SceneState, facts: OverlayFacts): HTMLElement
       return waiting(facts.activity?.title ?? state.title, progress === null ? '' : ` ${formatPercent(progress)}`);
     }
     case 'failed':
-      return failure(state.problem, facts.again);
+      return failure(state.problem, facts.again, facts.remove && [uploadButton(facts, 'primary'), h('button', { type: 'button', on: { click: facts.remove } }, t('Take it off the list'))]);
   }
 }
 
-function invitation({ heads, upload, addSample }: OverlayFacts): HTMLElement {
+const uploadButton = ({ upload }: OverlayFacts, look: string): HTMLElement =>
+  h('button', { type: 'button', class: look, on: { click: upload } }, t('Upload a head'));
+
+function invitation(facts: OverlayFacts): HTMLElement {
+  const { heads, addSample } = facts;
   const words = heads
     ? t('Choose one from the list, or drop a file ({formatList}) anywhere on this page.', { formatList })
     : t('Drop a file ({formatList}) anywhere on this page. Then place its points and press a button, and it talks.', {
@@ -54,7 +61,7 @@ function invitation({ heads, upload, addSample }: OverlayFacts): HTMLElement {
     h(
       'div',
       { class: 'row wrap' },
-      h('button', { type: 'button', class: heads ? '' : 'primary', on: { click: upload } }, t('Upload a head')),
+      uploadButton(facts, heads ? '' : 'primary'),
       heads ? null : h('button', { type: 'button', on: { click: addSample } }, t('Try the sample head')),
     ),
   );
@@ -69,15 +76,17 @@ const waiting = (title: string, progress = ''): HTMLElement =>
     h('p', {}, `${title}…${progress}`),
   );
 
-function failure(problem: Problem, again: (() => void) | null): HTMLElement {
+function failure(problem: Problem, again: (() => void) | null, others: HTMLElement[] | null = null): HTMLElement {
   const advice = adviceFor(problem);
+  const detail = withShortSizes(serverWords(problem.detail ?? ''));
   return h(
     'div',
     { class: 'stage-card error', role: 'alert' },
     icon('warning', 32),
     h('h2', {}, titleOf(problem)),
-    problem.detail ? h('p', {}, problem.pointer ? [h('code', {}, serverWords(problem.pointer)), ' '] : null, serverWords(problem.detail)) : null,
+    problem.detail ? h('p', {}, problem.pointer ? [h('code', {}, serverWords(problem.pointer)), ' ', detail] : capital(detail)) : null,
     advice ? h('p', { class: 'advice' }, advice) : null,
     again ? h('button', { type: 'button', on: { click: again } }, t('Try again')) : null,
+    others ? h('div', { class: 'row wrap' }, others) : null,
   );
 }

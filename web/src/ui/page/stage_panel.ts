@@ -1,4 +1,5 @@
 import type { ViewName } from '../../view/stage.ts';
+import type { Model } from '../../net/types.ts';
 import { h, replace, setText } from '../shared/dom.ts';
 import { formatBytes } from '../shared/format.ts';
 import { rove } from '../shared/roving.ts';
@@ -38,6 +39,8 @@ export class StagePanel {
   private down: { x: number; y: number; time: number } | null = null;
   /** Called when a head is to be uploaded. */
   onUpload: () => void = () => {};
+  /** Called when a head that could not be read is to go. */
+  onRemove: (model: Model) => void = () => {};
   /** Called when the sample head is to be added. */
   onSample: () => void = () => {};
   /** Called when a part is clicked while parts can be selected. */
@@ -262,6 +265,7 @@ export class StagePanel {
         heads: this.studio.models.value.length > 0,
         reload: () => location.reload(),
         upload: () => this.onUpload(),
+        remove: model?.state === 'failed' ? () => this.onRemove(model) : null,
         addSample: () => this.onSample(),
       }),
     );

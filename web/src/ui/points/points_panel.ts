@@ -64,6 +64,7 @@ export class PointsPanel {
       'div',
       { class: 'panel points' },
       h('h2', { class: 'visually-hidden' }, t('Feature points')),
+      h('p', { class: 'notice error unread-note' }, icon('warning', 16), t('This head could not be read: open another one, or upload it in another form.')),
       h(
         'header',
         { class: 'section-head' },
@@ -95,7 +96,10 @@ export class PointsPanel {
     points.lock.on.watch((on) => this.lock.setAttribute('aria-pressed', String(on)));
     points.chosen.watch((id) => this.guide.select(id));
     points.busy.watch(() => this.draw());
-    studio.selected.watch(() => this.draw());
+    studio.selected.watch((model) => {
+      this.element.classList.toggle('unread', model?.state === 'failed');
+      this.draw();
+    });
     studio.activities.watch(() => this.draw());
   }
 

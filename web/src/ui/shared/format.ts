@@ -13,6 +13,9 @@ export function formatBytes(bytes: number): string {
   return `${value < 9.95 ? value.toLocaleString(language, { minimumFractionDigits: 1, maximumFractionDigits: 1 }) : Math.round(value)} ${units[unit]}`;
 }
 
+/** Long numbers of bytes in a sentence of the server, as people read them. */
+export const withShortSizes = (text: string): string => text.replaceAll(/\b(\d{5,}) bytes\b/g, (_, bytes: string) => formatBytes(Number(bytes)));
+
 export function formatCount(count: number): string {
   return count.toLocaleString(language);
 }

@@ -1,7 +1,9 @@
 import { adviceFor, wordsOf } from '../../net/problem.ts';
 import type { Problem } from '../../net/types.ts';
 import { h } from './dom.ts';
+import { withShortSizes } from './format.ts';
 import { icon } from './icons.ts';
+import { capital } from './names.ts';
 import { t } from '../../words/words.ts';
 
 export interface ToastAction {
@@ -31,7 +33,9 @@ export class Toasts {
   /** `action`: what a button below the text does, in place of advice. Returns what takes the message away. */
   problem(what: string, problem: Problem, action?: ToastAction): () => void {
     const advice = action ? null : adviceFor(problem);
-    const detail = wordsOf(problem);
+    // A fault of the whole file has its place in the title already.
+    const place = problem.pointer && problem.pointer !== '/file' ? problem.pointer : null;
+    const detail = withShortSizes(wordsOf(problem));
     const click = (): void => {
       toast.remove();
       action?.act();
@@ -43,12 +47,18 @@ export class Toasts {
         'div',
         {},
         h('strong', {}, what),
-        h('p', {}, problem.pointer ? [h('code', {}, problem.pointer), ' '] : null, detail),
+        h('p', {}, place ? [h('code', {}, place), ' '] : null, place ? detail : capital(detail)),
         advice ? h('p', { class: 'advice' }, advice) : null,
         action ? h('button', { type: 'button', class: 'small', on: { click } }, action.label) : null,
       ),
     );
+    if (problem.status === 0) toast.classList.add('no-answer');
     return () => toast.remove();
+  }
+
+  /** The server answers again: what could not reach it can be tried again. */
+  serverIsBack(): void {
+    for (const old of this.element.querySelectorAll('.no-answer')) old.remove();
   }
 
   private show(kind: 'note' | 'error', ...content: Node[]): HTMLElement {

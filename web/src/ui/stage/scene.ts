@@ -290,7 +290,7 @@ export class SceneView {
   /** Loads the still model of the shown face, once it is to be seen. */
   private async fetchPreview(): Promise<void> {
     const { model, opening } = this;
-    if (this.preview || !model || !opening || this.state.value.kind !== 'ready') return;
+    if (this.preview || model?.state !== 'parametrized' || !opening || this.state.value.kind !== 'ready') return; // another head has no face that this follows
     this.state.set({ kind: 'loading', title: t('Opening the head') });
     try {
       const preview = await this.openPreview(model, opening.signal);
