@@ -61,6 +61,14 @@ test('Studio_EmptyServer_OffersTheSampleAndLeadsToItsPlay', async () => {
   await page.getByText('No heads yet.').first().waitFor();
   expect(await done()).toBe(0);
   await studio.keep('empty-server');
+  await page.locator('#tab-points').click();
+  await page.getByText('Open a head first').waitFor();
+  expect(await page.getByRole('button', { name: 'Start' }).count(), 'there is nothing to place points on').toBe(0);
+  await page.locator('#tab-animate').click();
+  const touched = await StudioPage.open(browser, server.url, phone);
+  await touched.page.getByText('Upload a file (').waitFor();
+  expect(await touched.page.locator('#panel-animate .drop').first().innerText(), 'a finger drops no files').toBe('Your own recording');
+  await touched.close();
   await page.getByRole('button', { name: 'Try the sample head' }).click();
   await studio.waitForState('parametrized');
   await studio.waitForStage('ready');

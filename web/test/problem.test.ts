@@ -1,5 +1,5 @@
 import { afterEach, describe, expect, test, vi } from 'vitest';
-import { adviceFor, featurePointOf, fieldProblems, problemFrom, titleOf, wordsOf } from '../src/net/problem.ts';
+import { adviceFor, featurePointOf, fieldProblems, problemFrom, problemOf, titleOf, wordsOf } from '../src/net/problem.ts';
 
 afterEach(() => {
   vi.unstubAllGlobals();
@@ -39,6 +39,9 @@ describe('problem documents', () => {
       'the file is a pointer of Git LFS in place of the model: git lfs pull fetches the model',
     ])
       expect(adviceFor({ ...unknown, detail }), detail).toBeNull();
+    const full = { type: '/problems/insufficient-storage', title: 'no', status: 507 };
+    expect(adviceFor(full)).toContain('disk is full');
+    expect(adviceFor({ ...full, detail: 'the disk of the server is full: free some room and try again' })).toBeNull();
     expect(adviceFor(refused)).toContain('Export the head again');
     expect(adviceFor({ ...refused, detail: "the zip has no model but 'inner.zip': send the model that is in it" })).toBeNull();
   });
@@ -55,6 +58,11 @@ describe('problem documents', () => {
       pointer: '/points/2.1/vertex',
       detail: 'no such vertex',
     });
+  });
+
+  test('ProblemOf_APartOfThePageThatIsGone_AsksToReload', () => {
+    expect(problemOf(new TypeError('Failed to fetch dynamically imported module: http://127.0.0.1/assets/a.js')).detail).toContain('Reload the page');
+    expect(problemOf(new TypeError('error loading dynamically imported module: a.js')).detail).toContain('Reload the page');
   });
 
   test('ProblemFrom_HtmlOfAProxy_ShowsNoMarkup', () => {

@@ -140,6 +140,23 @@ test('Import_WithErrors_OpensThem_ButWhoTurnsTheHeadStaysAtItsPoints', async () 
   expect(studio.tab.value).toBe('points');
 });
 
+test('Upload_OfSeveralFiles_OpensTheFirst_AndShowsThoseThatWait', async () => {
+  const { studio } = await studioWith(head('ana'));
+  const opened: (string | undefined)[] = [];
+  studio.selected.watch((model) => opened.push(model?.id));
+  const shown: string[][] = [];
+  studio.activities.watch((now) => {
+    const titles = [...now.values()].map(({ title }) => title);
+    shown.push(titles);
+    if (titles[0] === 'Sending one.glb') [...now.values()].find(({ title }) => title === 'Waiting: three.glb')?.cancel?.();
+  });
+  await studio.upload(['one.glb', 'two.glb', 'three.glb'].map((name) => ({ path: name, file: new File(['x'], name) })));
+  expect(shown).toContainEqual(['Sending one.glb', 'Waiting: two.glb', 'Waiting: three.glb']);
+  expect(ids(studio)).toEqual(['two.glb', 'one.glb', 'ana']);
+  expect([...new Set(opened)]).toEqual(['ana', 'one.glb']);
+  expect(studio.activities.value.size).toBe(0);
+});
+
 test('Upload_ThatIsAccepted_TakesAwayTheMessagesOfFilesChosenBefore_ButNotOfThoseChosenWithIt', async () => {
   const { studio, shown } = await studioWith(head('ana'));
   const upload = (...names: string[]): Promise<void> => studio.upload(names.map((name) => ({ path: name, file: new File(['x'], name) })));

@@ -74,14 +74,14 @@ export function featurePointOf(pointer: string | undefined): string | null {
   return match ? match[1]! : null;
 }
 
-/** Sentences of the server that say themselves what helps, or that no program helps: those of core/import/foreign_file.cpp and its zips. */
-const saysWhatHelps = /: (export|send|download|git lfs)\b|; send |, not a model$/;
+/** Sentences of the server that say themselves what helps, or that no program helps: core/import/foreign_file.cpp, zips, server/api/storage_problems.cpp. */
+const saysWhatHelps = /: (export|send|download|git lfs|free some room)\b|; send |, not a model$/;
 
 /** Advice for the user in one sentence, or null when there is none better than "try again". */
 export function adviceFor(problem: Problem): string | null {
   const slug = slugOf(problem);
+  if (saysWhatHelps.test(problem.detail ?? '')) return null;
   if (problem.status === 0) return t('Check that the server is running, then try again.');
-  if ((slug === 'malformed-model' || slug === 'unsupported-media-type') && saysWhatHelps.test(problem.detail ?? '')) return null;
   if (slug === 'malformed-model') return t('Export the head again as {anyFormat}.', { anyFormat });
   if (slug === 'unsupported-media-type') return t('Open it in the program that made it, or in Blender, and export it as GLB.');
   if (slug === 'unauthorized') return t('Sign in again.');
@@ -99,8 +99,13 @@ export function adviceFor(problem: Problem): string | null {
   return null;
 }
 
+/** What browsers say when a part of the page does not come: without a network, or because the server has newer pages than this one. */
+const missingPart = /dynamically imported module|Importing a module script failed|Unable to preload/;
+
 export function problemOf(error: unknown): Problem {
   if (error instanceof ApiError) return error.problem;
+  if (error instanceof Error && missingPart.test(error.message))
+    return { type: 'about:blank', title: t('A part of this page did not come'), status: -1, detail: t('Reload the page: the server may have a newer one. Unsaved points stay.') };
   const detail = error instanceof Error ? error.message : String(error);
   return { type: 'about:blank', title: t('Something went wrong on this page'), status: -1, detail };
 }

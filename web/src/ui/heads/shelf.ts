@@ -65,7 +65,7 @@ export class Shelf {
         'button',
         { type: 'button', class: 'drop', on: { click: this.choose } },
         icon('upload', 22),
-        h('span', {}, h('strong', {}, t('Choose a head')), t(' or drop it here')),
+        h('span', {}, h('strong', {}, t('Choose a head')), h('span', { class: 'drop-word' }, t(' or drop it here'))),
         h('small', {}, formatList),
       ),
       this.input,
@@ -251,7 +251,7 @@ export class Shelf {
           'span',
           { class: 'head-text' },
           h('strong', {}, activity.title),
-          h('span', { class: 'muted small' }, formatPercent(activity.progress ?? 0)),
+          activity.progress === null ? null : h('span', { class: 'muted small' }, formatPercent(activity.progress)),
         ),
       ),
       activity.cancel

@@ -5,6 +5,7 @@ import { h } from '../shared/dom.ts';
 import { formatPercent, withShortSizes } from '../shared/format.ts';
 import { icon } from '../shared/icons.ts';
 import { capital } from '../shared/names.ts';
+import { hasFinger } from '../shared/click_word.ts';
 import type { SceneState } from '../stage/scene.ts';
 import type { Activity, ShelfState } from '../shared/studio.ts';
 import { serverWords, t } from '../../words/words.ts';
@@ -47,11 +48,14 @@ const uploadButton = ({ upload }: OverlayFacts, look: string): HTMLElement =>
 
 function invitation(facts: OverlayFacts): HTMLElement {
   const { heads, addSample } = facts;
+  const finger = hasFinger();
   const words = heads
-    ? t('Choose one from the list, or drop a file ({formatList}) anywhere on this page.', { formatList })
-    : t('Drop a file ({formatList}) anywhere on this page. Then place its points and press a button, and it talks.', {
-        formatList,
-      });
+    ? finger
+      ? t('Choose one from the list, or upload a file ({formatList}).', { formatList })
+      : t('Choose one from the list, or drop a file ({formatList}) anywhere on this page.', { formatList })
+    : finger
+      ? t('Upload a file ({formatList}). Then place its points and press a button, and it talks.', { formatList })
+      : t('Drop a file ({formatList}) anywhere on this page. Then place its points and press a button, and it talks.', { formatList });
   return h(
     'div',
     { class: 'stage-card' },

@@ -4,6 +4,7 @@ import { h, replace, setText } from '../shared/dom.ts';
 import { Guide } from './guide.ts';
 import { icon, type IconName } from '../shared/icons.ts';
 import { canIdle, setIdle, type Idle } from '../shared/idle.ts';
+import { capital } from '../shared/names.ts';
 import { ParametrizeBox } from './parametrize_box.ts';
 import type { Parametrizer } from './parametrizer.ts';
 import type { HiddenParts } from './hidden_parts.ts';
@@ -60,11 +61,12 @@ export class PointsPanel {
       if (chosen) void this.importFile(chosen);
       file.value = '';
     });
+    const unread = h('p', { class: 'notice unread-note' });
     this.element = h(
       'div',
       { class: 'panel points' },
       h('h2', { class: 'visually-hidden' }, t('Feature points')),
-      h('p', { class: 'notice error unread-note' }, icon('warning', 16), t('This head could not be read: open another one, or upload it in another form.')),
+      unread,
       h(
         'header',
         { class: 'section-head' },
@@ -97,7 +99,14 @@ export class PointsPanel {
     points.chosen.watch((id) => this.guide.select(id));
     points.busy.watch(() => this.draw());
     studio.selected.watch((model) => {
-      this.element.classList.toggle('unread', model?.state === 'failed');
+      const failed = model?.state === 'failed';
+      this.element.classList.toggle('unread', failed || model === null);
+      unread.classList.toggle('error', failed);
+      replace(
+        unread,
+        icon(failed ? 'warning' : 'head', 16),
+        failed ? t('This head could not be read: open another one, or upload it in another form.') : t('Open a head first: choose one of the list, or upload one.'),
+      );
       this.draw();
     });
     studio.activities.watch(() => this.draw());
@@ -156,7 +165,7 @@ export class PointsPanel {
     const wrong = [...problems.keys()].filter((id) => id !== '');
     replace(
       this.notices,
-      general.map((text) => h('p', { class: 'notice error', role: 'alert' }, icon('warning', 16), text)),
+      general.map((text) => h('p', { class: 'notice error', role: 'alert' }, icon('warning', 16), capital(text))),
       wrong.length > 0 ? this.refusal(wrong) : null,
       this.dispute(),
     );

@@ -26,7 +26,7 @@ export function chooseFile({ label, note, accept, multiple = false, take }: File
       'button',
       { type: 'button', class: 'drop', on: { click: () => input.click() } },
       icon('upload', 18),
-      h('span', {}, h('strong', {}, label), ` ${note}`),
+      h('span', {}, h('strong', {}, label), h('span', { class: 'drop-word' }, ` ${note}`)),
     ),
     input,
   );

@@ -17,6 +17,13 @@ export interface Activity {
   cancel?: () => void;
 }
 
+/** A file that was chosen; `key`: of its activity. */
+interface Upload {
+  file: File;
+  key: string;
+  abort: AbortController;
+}
+
 export type ShelfState = { kind: 'loading' } | { kind: 'ready' } | { kind: 'failed'; problem: Problem };
 
 /** The page's state apart from the stage: the models and the operations on them. */
@@ -117,38 +124,65 @@ export class Studio {
       return;
     }
     const earlier = this.refusals.splice(0);
-    for (const file of uploads) await this.uploadOne(file, earlier);
+    const waiting = uploads.map((file) => this.queueUpload(file));
+    const imports: Promise<void>[] = [];
+    for (const upload of waiting) {
+      const accepted = await this.send(upload, earlier);
+      if (!accepted) continue;
+      // Whoever works on the first of several files is not taken to the next one.
+      if (imports.length === 0) this.select(accepted.model.id);
+      imports.push(this.followImport(upload.file, accepted.model, accepted.job));
+    }
+    await Promise.all(imports);
     this.refusals.push(...earlier);
   }
 
   /** What takes away the messages of files that were not accepted and that no later choice of files has replaced. */
   private readonly refusals: (() => void)[] = [];
 
-  /** `earlier`: of `refusals`, those of files that were chosen before. */
-  private async uploadOne(file: File, earlier: (() => void)[]): Promise<void> {
+  /** Shows a file that is to be sent when those before it have been. */
+  private queueUpload(file: File): Upload {
     this.uploads += 1;
-    const key = `upload-${this.uploads}`;
-    const abort = new AbortController();
+    const upload = { file, key: `upload-${this.uploads}`, abort: new AbortController() };
+    this.setActivity(upload.key, {
+      title: t('Waiting: {name}', { name: file.name }),
+      progress: null,
+      cancel: () => {
+        upload.abort.abort();
+        this.setActivity(upload.key, null);
+      },
+    });
+    return upload;
+  }
+
+  /** Sends a file; resolves with null when it is cancelled or not accepted. `earlier`: of `refusals`, those of files that were chosen before. */
+  private async send({ file, key, abort }: Upload, earlier: (() => void)[]): Promise<{ model: Model; job: Job } | null> {
+    if (abort.signal.aborted) return null;
     const show = (fraction: number): void =>
       this.setActivity(key, { title: t('Sending {name}', { name: file.name }), progress: fraction, cancel: () => abort.abort() });
     show(0);
     try {
-      const { model, job } = await this.api.uploadModel(file, show, abort.signal);
+      const accepted = await this.api.uploadModel(file, show, abort.signal);
       for (const forget of earlier.splice(0)) forget(); // they would cover the head that came in their place
-      this.replaceModel(model);
+      this.replaceModel(accepted.model);
+      return accepted;
+    } catch (error) {
+      if (!(error instanceof DOMException && error.name === 'AbortError'))
+        this.refusals.push(this.toasts.problem(t('{name} was not accepted', { name: file.name }), problemOf(error)));
+      return null;
+    } finally {
       this.setActivity(key, null);
-      this.select(model.id);
+    }
+  }
+
+  private async followImport(file: File, model: Model, job: Job): Promise<void> {
+    await this.attempt(t('{name} could not be read', { name: file.name }), async () => {
       await this.follow(model.id, job, t('Reading the file'));
       const finished = await this.reload(model.id);
       // The stage says it of the head that is on it.
       if (finished?.state === 'failed' && finished.problem && this.selected.value?.id !== finished.id)
         this.toasts.problem(t('{name} could not be read', { name: file.name }), finished.problem);
-    } catch (error) {
-      if (!(error instanceof DOMException && error.name === 'AbortError'))
-        this.refusals.push(this.toasts.problem(t('{name} was not accepted', { name: file.name }), problemOf(error)));
-    } finally {
-      this.setActivity(key, null);
-    }
+    });
   }
 
   async rename(model: Model, name: string): Promise<void> {

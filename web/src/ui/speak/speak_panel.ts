@@ -155,7 +155,7 @@ export class SpeakPanel {
       state.kind === 'on' ? h('p', { class: 'muted small' }, t('The face says what you say, in any language. Sliders that are sent to a stream send the mouth too.')) : null,
       state.kind === 'on' ? this.voiceChoice() : null,
       state.kind === 'failed'
-        ? h('div', { class: 'notice error', role: 'alert' }, icon('warning', 16), h('div', { class: 'grow' }, state.message))
+        ? h('div', { class: 'notice error', role: 'alert' }, icon('warning', 16), h('div', { class: 'grow' }, capital(state.message)))
         : null,
     );
   }
@@ -194,7 +194,7 @@ export class SpeakPanel {
     if (state.kind === 'failed')
       return replace(
         this.said,
-        h('div', { class: 'notice error', role: 'alert' }, icon('warning', 16), h('div', { class: 'grow' }, state.message)),
+        h('div', { class: 'notice error', role: 'alert' }, icon('warning', 16), h('div', { class: 'grow' }, capital(state.message))),
       );
     const { speech, timeline } = state;
     replace(

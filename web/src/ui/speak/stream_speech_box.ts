@@ -121,4 +121,4 @@ export class StreamSpeechBox {
 }
 
 const fault = (message: string): HTMLElement =>
-  h('div', { class: 'notice error', role: 'alert' }, icon('warning', 16), h('div', { class: 'grow' }, message));
+  h('div', { class: 'notice error', role: 'alert' }, icon('warning', 16), h('div', { class: 'grow' }, capital(message)));
