@@ -196,7 +196,7 @@ describe('studio', () => {
     await studio.close();
   });
 
-  test('Studio_FileDroppedOnADialog_IsNotOpenedByTheBrowser', async () => {
+  test('Studio_DroppedFile_OnADialogIsNotOpenedByTheBrowser_ElseIsShownWhereItIsTaken', async () => {
     const studio = await StudioPage.open(browser, server.url);
     const { page, context } = studio;
     await studio.waitForStage('ready');
@@ -210,6 +210,16 @@ describe('studio', () => {
     for (const type of ['dragEnter', 'dragOver', 'drop'] as const) await devtools.send('Input.dispatchDragEvent', { type, x, y, data });
     await studio.drawn(5); // the browser opens it in another tab, or here
     expect([context.pages().length, page.url().startsWith(server.url)]).toEqual([1, true]);
+
+    // What the page takes is shown where it is taken.
+    await page.keyboard.press('Escape');
+    await page.locator('#tab-fit').click();
+    await studio.dropText('take.json', '{"hello": 1}');
+    await page.locator('.performance').getByText('take.json').waitFor();
+    await page.waitForFunction(() => {
+      const { top } = document.querySelector('.performance')!.getBoundingClientRect();
+      return top >= 0 && top < innerHeight - 40;
+    });
     expect(studio.errors).toEqual([]);
     await studio.close();
   });
@@ -227,6 +237,13 @@ describe('studio', () => {
     expect(await page.locator('.head strong').first().innerText()).toBe('Head number 29');
     const list = await page.locator('.heads').boundingBox();
     expect(list!.height, 'the list has most of the height').toBeGreaterThan(360);
+    // Progress is drawn many times a second: items that show the same stay the same.
+    const stays = await page.evaluate(() => {
+      const [first] = document.querySelectorAll('.head');
+      (window as unknown as { semblante: { studio: { activities: { notify(): void } } } }).semblante.studio.activities.notify();
+      return document.querySelector('.head') === first;
+    });
+    expect(stays).toBe(true);
     await page.getByRole('searchbox', { name: 'Search heads' }).fill('29 number');
     await page.locator('.head').nth(1).waitFor({ state: 'detached' });
     expect(await page.locator('.head strong').allInnerTexts()).toEqual(['Head number 29']);

@@ -91,6 +91,20 @@ test('View_UnknownStream_SaysSo_AndShowsItOnceItIsThere', async () => {
   await page.context().close();
 });
 
+test('View_NoStreamNamed_SaysSoInTheMiddle', async () => {
+  const { page, errors } = await open('/view/');
+  await page.getByText('No stream is named').waitFor();
+  const middle = await page.locator('main').evaluate((main) => {
+    const words = document.createRange();
+    words.selectNodeContents(main);
+    const { left, right, top, bottom } = words.getBoundingClientRect();
+    return [(left + right) / 2 / innerWidth, (top + bottom) / 2 / innerHeight];
+  });
+  for (const part of middle) expect(part).toBeCloseTo(0.5, 1);
+  expect(errors).toEqual([]);
+  await page.context().close();
+});
+
 test('View_LessMotionWished_WaitsForPlay_InPortugueseToo', async () => {
   const { page, errors } = await open('/view/demo', { reducedMotion: 'reduce', locale: 'pt-BR' });
   await untilFace(page, 'resting');

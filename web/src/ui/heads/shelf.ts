@@ -3,7 +3,7 @@ import { formatList } from '../../net/model_formats.ts';
 import { adviceFor, titleOf, wordsOf } from '../../net/problem.ts';
 import type { Model } from '../../net/types.ts';
 import { ask } from '../shared/dialog.ts';
-import { h, replace } from '../shared/dom.ts';
+import { h, keepChildren, replace } from '../shared/dom.ts';
 import { formatPercent } from '../shared/format.ts';
 import { findingBadge } from '../shared/finding_badge.ts';
 import { listed, manyHeads, searchedHeads } from './head_order.ts';
@@ -160,11 +160,24 @@ export class Shelf {
     this.search.hidden = studio.models.value.length < searchedHeads;
     this.element.classList.toggle('many', studio.models.value.length >= manyHeads(this.low.matches));
     const heads = listed(studio.models.value, this.search.hidden ? '' : this.words.value);
-    for (const model of heads) items.push(this.item(model, studio.activities.value.get(model.id)));
+    for (const model of heads) items.push(this.keptItem(model, studio.activities.value.get(model.id)));
     if (items.length === 0) items.push(h('li', { class: 'empty' }, studio.models.value.length === 0 ? t('No heads yet.') : t('No head of this name.')));
     this.followMoves(heads);
-    replace(this.list, ...items);
-    if (focused) this.list.querySelector<HTMLElement>(`[data-model="${CSS.escape(focused)}"] .open`)?.focus();
+    keepChildren(this.list, items);
+    if (focused && !this.list.contains(document.activeElement)) this.list.querySelector<HTMLElement>(`[data-model="${CSS.escape(focused)}"] .open`)?.focus();
+  }
+
+  /** Items by head, with what they show: progress is drawn many times a second, in a list that may have a thousand of them. */
+  private items = new WeakMap<Model, { shows: readonly unknown[]; element: HTMLElement }>();
+
+  private keptItem(model: Model, activity: Activity | undefined): HTMLElement {
+    const shows = [activity, this.studio.selected.value?.id === model.id, this.thumbnails.get(model.id)];
+    const kept = this.items.get(model);
+    // The words of a fault may have come in another language meanwhile.
+    if (kept && model.state !== 'failed' && shows.every((one, i) => one === kept.shows[i])) return kept.element;
+    const element = this.item(model, activity);
+    this.items.set(model, { shows, element });
+    return element;
   }
 
   private item(model: Model, activity: Activity | undefined): HTMLElement {

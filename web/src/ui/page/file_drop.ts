@@ -28,10 +28,10 @@ export function routeDrops(page: HTMLElement, { studio, points, performance, cli
       void points.importFile(set.file);
     } else if (script) {
       studio.tab.set('live');
-      void performance.takeFile(script.file);
+      void performance.takeFile(script.file).then(() => reveal(performance.element));
     } else if (file) {
       studio.tab.set('animate');
-      void clip.takeFile(file.file);
+      void clip.takeFile(file.file).then(() => reveal(clip.element));
     } else if (sound) {
       studio.tab.set('animate');
       speak.takeRecording(sound.file);
@@ -40,6 +40,9 @@ export function routeDrops(page: HTMLElement, { studio, points, performance, cli
   });
   refuseOtherDrops();
 }
+
+/** Scrolls to what has received a file, and says there what it makes of it: both stand far down in their panels. */
+const reveal = (receiver: HTMLElement): void => void requestAnimationFrame(() => receiver.scrollIntoView({ block: 'start' }));
 
 /** What is dropped where nothing takes it, as on a dialog, stays outside: a browser would open it in place of the studio. */
 function refuseOtherDrops(): void {

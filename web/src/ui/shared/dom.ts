@@ -39,6 +39,15 @@ export function replace(parent: Element, ...children: Child[]): void {
   append(parent, children);
 }
 
+/** Gives an element these children; those that it has already stay in their places, with their focus. */
+export function keepChildren(parent: Element, children: readonly Element[]): void {
+  const wanted = new Set(children);
+  for (const child of [...parent.children]) if (!wanted.has(child)) child.remove();
+  children.forEach((child, i) => {
+    if (parent.children[i] !== child) parent.insertBefore(child, parent.children[i] ?? null);
+  });
+}
+
 /** Redraws a container and restores the focus to the control with the same `data-focus`. */
 export function redraw(container: Element, draw: () => void): void {
   const active = container.contains(document.activeElement) ? document.activeElement : null;
