@@ -34,7 +34,7 @@ const dracoModule = await transform(`${dracoScript}\nexport default DracoDecoder
 });
 
 await build({
-  entryPoints: { index: 'npm.ts', captions: 'captions/index.ts', draco: 'draco/index.ts', element: 'element/index.ts', listen: 'listen/npm.ts', listen_worklet: 'listen/worklet.ts', motion: 'motion/npm.ts', sound: 'sound/index.ts', speech: 'speech/index.ts', three: 'three/index.ts' },
+  entryPoints: { index: 'npm.ts', captions: 'captions/index.ts', draco: 'draco/index.ts', element: 'element/index.ts', listen: 'listen/npm.ts', motion: 'motion/npm.ts', sound: 'sound/index.ts', speech: 'speech/index.ts', three: 'three/index.ts' },
   absWorkingDir: here,
   outdir: dist,
   bundle: true,
@@ -65,6 +65,9 @@ await build({
     },
   ],
 });
+
+// Alone: bundlers copy it as a file, and it would not find there what it imports.
+await build({ entryPoints: ['listen/worklet.ts'], absWorkingDir: here, outfile: join(dist, 'listen_worklet.js'), bundle: true, format: 'esm', target: 'es2022', minify: true, legalComments: 'none' });
 
 // The one import by a variable is of Node's own module, which no bundler shall look for: the words that tell them do not
 // survive the minifier.

@@ -286,11 +286,12 @@ export class StreamClient extends Emitter<StreamEvents> {
   }
 
   private open(): void {
-    const { token } = this.options;
+    const { token, WebSocket } = this.options;
     const names = token === undefined ? [binarySubprotocol] : [binarySubprotocol, `${bearerSubprotocol}${token}`];
     let socket: ClientSocket;
     try {
-      socket = new this.options.WebSocket(this.url, names);
+      if (!WebSocket) throw new Error("there is no WebSocket here: give the option WebSocket, as of the package 'ws'");
+      socket = new WebSocket(this.url, names);
     } catch (error) {
       // An address that is none of a WebSocket, or that this page may not open: the next attempt would fail likewise.
       this.emit('fault', new ProtocolError('invalid_argument', '', `${this.url}: ${error instanceof Error ? error.message : String(error)}`));

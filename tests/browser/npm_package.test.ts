@@ -1,9 +1,10 @@
 import { execFile, execFileSync } from 'node:child_process';
-import { mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, statSync, symlinkSync, writeFileSync } from 'node:fs';
+import { cpSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, statSync, symlinkSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { promisify } from 'node:util';
 import type { Page } from 'playwright-core';
+import { build as bundle } from 'esbuild';
 import { build, createServer } from 'vite';
 import { afterAll, beforeAll, expect, test } from 'vitest';
 import { buildDir, root } from './support/paths.ts';
@@ -492,6 +493,35 @@ test('Package_BuiltByVite_ShowsAMovingFace', async () => {
   writeFileSync(join(source, 'main.js'), "import 'semblante/element';");
   await build({ root: source, base: './', logLevel: 'error', configFile: false, build: { outDir: join(project, 'built'), assetsInlineLimit: 0 } });
   await moves('/built/');
+});
+
+/** As the README says: the files are copied, under their names. */
+test('Package_BundledByEsbuild_ShowsAMovingFace_AndHearsSound', async () => {
+  const source = join(project, 'bundle');
+  const out = join(project, 'bundled');
+  mkdirSync(source);
+  writeFileSync(
+    join(source, 'main.js'),
+    `import 'semblante/element';
+import { listenFiles, listenTo } from 'semblante/listen';
+window.hear = async () => {
+  const context = new OfflineAudioContext(1, 48000, 48000);
+  let count = 0;
+  const tone = context.createOscillator();
+  await listenTo(tone, listenFiles, () => (count += 1));
+  tone.start();
+  await context.startRendering();
+  while (count === 0) await new Promise((done) => setTimeout(done, 10));
+  return count;
+};`,
+  );
+  await bundle({ entryPoints: [join(source, 'main.js')], bundle: true, format: 'esm', outdir: out, logLevel: 'error' });
+  writeFileSync(join(out, 'index.html'), '<!doctype html><script type="module" src="./main.js"></script><semblante-face stream="demo"></semblante-face>');
+  const dist = join(unpacked, 'dist');
+  for (const name of readdirSync(dist).filter((one) => one.endsWith('.wasm') || one === 'listen_worklet.js')) cpSync(join(dist, name), join(out, name));
+  await moves('/bundled/', server.url, async (page) => {
+    expect(await page.evaluate(() => (window as unknown as { hear(): Promise<number> }).hear())).toBeGreaterThan(0);
+  });
 });
 
 /** The setting of the README: without it this Vite moves the modules away from their WebAssembly. */
