@@ -86,6 +86,17 @@ describe('StreamClient', () => {
     expect(events.filter(([name]) => name === 'fault')).toHaveLength(1);
   });
 
+  it('Connect_WithoutAWebSocket_IsAFaultThatNamesTheOption', () => {
+    vi.stubGlobal('WebSocket', undefined);
+    const stream = new StreamClient('ws://x/v1/streams/demo');
+    vi.unstubAllGlobals();
+    const faults: string[] = [];
+    stream.on('fault', ({ message }) => faults.push(message));
+    stream.connect();
+    expect(stream.state).toBe('closed');
+    expect(faults).toEqual(["ws://x/v1/streams/demo: there is no WebSocket here: give the option WebSocket, as of the package 'ws'"]);
+  });
+
   it('Receive_KeyframeAndFrames_EmitsThem', () => {
     const { stream, events } = client();
     stream.connect();
