@@ -10,8 +10,7 @@ const read = (path) => parseStrictly(readFileSync(join(root, path), 'utf8'));
 
 const performance = read('protocol/schema/performance.schema.json');
 const api = schemasOf(read('server/api/openapi.json'));
-// The conditions of a cue require members that are defined one level above, which strictRequired does not see.
-const ajv = strictAjv({ strictRequired: false });
+const ajv = strictAjv();
 ajv.addSchema(api);
 const apiSchema = (name) => ajv.compile({ $ref: `api#/$defs/${name}` });
 
