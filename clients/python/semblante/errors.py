@@ -1,7 +1,7 @@
 """Errors of the library as exceptions."""
 
 import ctypes
-from typing import Any, Callable, ClassVar, Optional, TypeVar
+from typing import Any, Callable, ClassVar, NoReturn, Optional, SupportsIndex, TypeVar
 
 from ._library import library
 from ._structs import Error
@@ -53,6 +53,9 @@ class Owner:
 
     def __del__(self) -> None:
         self.close()
+
+    def __reduce_ex__(self, protocol: SupportsIndex) -> NoReturn:
+        raise TypeError(f"a {type(self).__name__} is memory of the library: it cannot be copied or pickled")  # freed twice
 
     def __enter__(self: _Self) -> _Self:
         return self

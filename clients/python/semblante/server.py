@@ -1,6 +1,7 @@
 """A server: fetching a face package, and following a stream over a blocking WebSocket."""
 
 import json
+import math
 import os
 import ssl
 import time
@@ -187,6 +188,8 @@ def follow(server: str, stream: str, *, head: Optional[Head] = None, rate: float
            **options: Any) -> Iterator[Player]:
     """Follows a stream at `rate` display frames per second. Yields a Player for each display frame at which there is something
     to show, after setting the pose of `head`. Ends with the stream. `options`: those of Connection."""
+    if not 0.0 < rate < math.inf:
+        raise ValueError(f"rate: {rate} is no number of frames per second")
     player = Player()
     step = 1.0 / rate
     with Connection(server, stream, **options) as connection:

@@ -1,6 +1,7 @@
 """The package for Python on golden files and beside a real server."""
 
 import array
+import copy
 import ctypes
 import enum
 import gc
@@ -9,6 +10,7 @@ import json
 import math
 import os
 import pathlib
+import pickle
 import socket
 import subprocess
 import sys
@@ -150,6 +152,12 @@ class Heads(unittest.TestCase):
         self.assertFalse(head.positions().flags.owndata)
         self.assertIs(head.positions(), head.positions())
 
+    def test_a_copy_is_refused_as_it_would_free_the_memory_again(self):
+        for owner in (golden_head(), semblante.Player(), semblante.Stream()):
+            for make in (copy.copy, copy.deepcopy, pickle.dumps):
+                with self.assertRaisesRegex(TypeError, "cannot be copied"):
+                    make(owner)
+
     def test_normals_have_length_one(self):
         head = golden_head()
         head.set_frame(semblante.frame({3: 200}))
@@ -274,6 +282,11 @@ class Streams(unittest.TestCase):
                 break
         self.assertEqual(times, sorted(times))
         self.assertNotEqual(head.positions().tolist(), head.neutral.tolist())
+
+    def test_a_rate_of_pictures_that_is_none_is_refused(self):
+        for rate in (0, -1, math.nan, math.inf):
+            with self.assertRaisesRegex(ValueError, "rate"):
+                next(semblante.follow(self.server.url, "demo", rate=rate))
 
     def test_a_model_that_is_not_there_is_an_error_with_the_servers_words(self):
         with self.assertRaisesRegex(urllib.error.HTTPError, "404: there is no model nobody"):
