@@ -51,6 +51,12 @@ std::size_t utf8_end(std::string_view text) {
   return at;
 }
 
+bool has_controls(std::string_view text) {
+  for (; !text.empty(); text.remove_prefix(utf8_step(text)))
+    if (is_control(text.substr(0, utf8_step(text)))) return true;
+  return false;
+}
+
 std::string printable(std::string_view name) {
   constexpr std::size_t max_bytes = 200;
   std::string text;

@@ -15,8 +15,12 @@ std::size_t utf8_step(std::string_view text);
 /// The byte at which `text` stops being valid UTF-8; its size if all of it is.
 std::size_t utf8_end(std::string_view text);
 
-/// Makes an untrusted name safe for output: valid UTF-8, at most 200 bytes. Other bytes become '?', and so do control
-/// characters, breaks of lines, and characters that change the direction of the text.
+/// Whether valid UTF-8 has a control character, a break of lines, or a character that changes the direction of the
+/// text.
+bool has_controls(std::string_view text);
+
+/// Makes an untrusted name safe for output: valid UTF-8, at most 200 bytes. Other bytes become '?', and so does
+/// what has_controls() looks for.
 std::string printable(std::string_view name);
 
 /// A length or another measure with three significant digits, for people: "6.4", "0.0625", "4.5e+06".

@@ -31,6 +31,7 @@ constexpr auto kinds = std::to_array<ProblemKind>({
     {"content-too-large", 413, "The body is over the limit"},
     {"unsupported-media-type", 415, "The body's media type is not supported"},
     {"range-not-satisfiable", 416, "The range lies outside the content"},
+    {"expectation-failed", 417, "The server does not meet the expectation"},
     {"foreign-host", 421, "The server does not accept this host name"},
     {"malformed-model", 422, "The model file cannot be read"},
     {"unsupported-model", 422, "The model file needs something that is not supported"},

@@ -234,7 +234,7 @@ class Session {
       co_return Unread{http::make_problem("length-required", "the request has neither Content-Length nor chunks")};
     if (const auto expect = request.header("Expect")) {
       if (!equal_ignoring_case(*expect, "100-continue"))
-        co_return Unread{http::make_problem("malformed-request", "only Expect: 100-continue is supported")};
+        co_return Unread{http::make_problem("expectation-failed", "only Expect: 100-continue is supported")};
       transport_.expires_after(state_->config.limits.write_timeout);
       constexpr std::string_view go_on = "HTTP/1.1 100 Continue\r\n\r\n";
       // A client of HTTP/1.0 would take it for the answer (RFC 9110, 10.1.1).

@@ -256,6 +256,12 @@ TEST_F(ServerTest, ContinueIsNotSaidToHttp10) {
   EXPECT_TRUE(client.read_head().starts_with("HTTP/1.0 200 "));
 }
 
+TEST_F(ServerTest, AnotherExpectationThanContinue_IsNotMet) {
+  const Client client(port_);
+  client.send("POST /immediate HTTP/1.1\r\nHost: localhost\r\nContent-Length: 2\r\nExpect: x\r\n\r\n");
+  EXPECT_TRUE(client.read_head().starts_with("HTTP/1.1 417 Expectation Failed\r\n"));
+}
+
 TEST_F(ServerTest, RefusedHead_HasNoBody) {
   const Client client(port_);
   client.send("HEAD /a%zz HTTP/1.1\r\nHost: localhost\r\n\r\n");

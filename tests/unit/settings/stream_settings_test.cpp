@@ -49,6 +49,15 @@ TEST(StreamSettings, Null_IsNoModelAndNoVisemeShare) {
   EXPECT_EQ(settings->viseme_share, std::nullopt);
 }
 
+/// Languages and emoji are written with characters that have no picture of their own.
+TEST(StreamSettings, TitlesWithJoiners_AreTaken) {
+  for (const char* title : {"\u0645\u06CC\u200C\u062E\u0648\u0627\u0647\u0645", "\U0001F469\u200D\U0001F467"}) {
+    const auto settings = read_stream_settings({{"title", title}}, "talk");
+    ASSERT_TRUE(settings) << title;
+    EXPECT_EQ(settings->title, title);
+  }
+}
+
 TEST(StreamSettings, WhatIsWrong_IsNamed) {
   const auto expect_wrong = [](const char* name, const Json& value, const char* message) {
     const auto settings = read_stream_settings({{name, value}}, "talk");
@@ -59,7 +68,8 @@ TEST(StreamSettings, WhatIsWrong_IsNamed) {
   for (const char* name : {"title", "model"}) {
     expect_wrong(name, 5, "must be a string");
     expect_wrong(name, "", "must not be empty");
-    expect_wrong(name, "a\nb", "control character");
+    for (const char* text : {"a\nb", "a\u0085b", "a\u2028b", "a\u202Eb", "a\u2066b"})
+      expect_wrong(name, text, "control character");
     expect_wrong(name, std::string(201, 'a'), "more than");
   }
   expect_wrong("title", nullptr, "must be a string");

@@ -15,6 +15,7 @@ export const portugueseProblems: Readonly<Record<string, string>> = {
   'content-too-large': 'O conteúdo passa do limite',
   'unsupported-media-type': 'Este tipo de arquivo não é aceito',
   'range-not-satisfiable': 'O intervalo está fora do conteúdo',
+  'expectation-failed': 'O servidor não atende o que a requisição espera',
   'foreign-host': 'O servidor não aceita este nome de host',
   'malformed-model': 'O arquivo do modelo não pode ser lido',
   'unsupported-model': 'O arquivo do modelo precisa de algo que não é suportado',
