@@ -9,7 +9,7 @@ _Static_assert(sizeof(semblante_triangles) == 16, "triangles");
 
 static uint32_t table_size(uint32_t vertex_count) {
   uint32_t size = 16;
-  while (size / 2 < vertex_count) {
+  while (size / 2 < vertex_count && size < 1U << 31) {
     size *= 2;
   }
   return size;

@@ -25,7 +25,7 @@ typedef struct semblante_triangles {
   const uint32_t* joined;  /* #V: the lowest vertex that has the same normal, often v itself */
 } semblante_triangles;
 
-/* Number of uint32_t of scratch memory for semblante_join_seams. */
+/* Number of uint32_t of scratch memory for semblante_join_seams, of at most 2^30 vertices. */
 size_t semblante_join_scratch(uint32_t vertex_count);
 
 /* joined[v]: the lowest vertex with exactly the same position and normal as v on the neutral face: joins the two sides
