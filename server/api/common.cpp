@@ -136,15 +136,13 @@ std::size_t page_size(const http::Request& request) {
 std::string clean_file_name(std::string_view name) {
   const auto slash = name.find_last_of("/\\");
   if (slash != std::string_view::npos) name.remove_prefix(slash + 1);
-  std::size_t end = 0;  // of the last whole character within the limit
-  while (end < name.size()) {
-    const std::size_t next = end + utf8_step(name.substr(end));
-    if (next > max_file_name_bytes) break;
-    end = next;
-  }
   std::string clean;
-  for (const char c : name.substr(0, end))
-    if (static_cast<unsigned char>(c) >= 0x20 && c != 0x7F) clean.push_back(c);
+  for (std::size_t at = 0; at < name.size();) {
+    const std::string_view character = name.substr(at, utf8_step(name.substr(at)));
+    at += character.size();
+    if (at > max_file_name_bytes) break;
+    if (!has_controls(character)) clean.append(character);
+  }
   return clean;
 }
 

@@ -76,7 +76,7 @@ std::optional<std::string> cut_to_page(std::vector<Record>& records, std::size_t
   return records.back().id;
 }
 
-/// The last segment of a path of any operating system, without characters that file names cannot have; at most 200
+/// The last segment of a path of any operating system, without what has_controls() of core/types looks for; at most 200
 /// bytes.
 std::string clean_file_name(std::string_view name);
 

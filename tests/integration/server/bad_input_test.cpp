@@ -208,6 +208,10 @@ TEST_F(BadInput, NamesOfUploads_AreWholeCharacters_AndNeverBlank) {
   const auto named = request(port(), "POST", "/v1/models?filename=" + long_name + ".obj", grid_obj(4), type);
   ASSERT_EQ(named.status, 202) << named.body;
   EXPECT_EQ(named.body.find("\xEF\xBF\xBD"), std::string::npos) << "half a character: " << named.body;
+  // U+202E: what follows is shown from right to left.
+  const auto turned = request(port(), "POST", "/v1/models?filename=a%E2%80%AEb.obj", grid_obj(4), type);
+  ASSERT_EQ(turned.status, 202) << turned.body;
+  EXPECT_EQ(json_of(turned)["model"]["name"], "ab");
   EXPECT_EQ(request(port(), "POST", "/v1/models?filename=a.obj&name=%20%20", grid_obj(4), type).status, 422);
 }
 
