@@ -114,17 +114,18 @@ class SeenPiece {
     int stepped = 0;
     for (int k = 0; k < directions; ++k) {
       const double angle = 2.0 * std::numbers::pi * k / directions;
-      const auto at = [&](double r) {
+      const auto at = [&](int half_step) {
+        const double r = 0.5 * half_step;
         return std::pair(static_cast<int>(std::lround(x + r * std::cos(angle))),
                          static_cast<int>(std::lround(y + r * std::sin(angle))));
       };
-      double end = 0.0;
-      for (double r = 0.0; r < view_.columns; r += 0.5) {
-        const auto [column, row] = at(r);
-        if (contains(column, row)) end = r;
+      int end = 0;
+      for (int half_step = 0; half_step < 2 * view_.columns; ++half_step) {
+        const auto [column, row] = at(half_step);
+        if (contains(column, row)) end = half_step;
       }
-      for (double r = end; r <= end + way; r += 0.5) {
-        const auto [column, row] = at(r);
+      for (int half_step = end; 0.5 * half_step <= 0.5 * end + way; ++half_step) {
+        const auto [column, row] = at(half_step);
         if (!is_in(column, row) || contains(column, row) || !std::isfinite(view_.z[view_.at(column, row)])) continue;
         if (glm::distance(view_.place(column, row), ball.center) < ball.radius + step_of_lid * width) continue;
         ++stepped;

@@ -210,7 +210,7 @@ class Reader {
     if (!(number >= 0 && number <= 2.0 * max_fap_file_number) || number != std::floor(number)) {
       return fail(ErrorCode::out_of_range, line, 0,
                   quoted(line.words[0]) + " is no frame number: those are whole, from 0 to " +
-                      natural_text(2 * max_fap_file_number));
+                      natural_text(std::uint64_t{2} * max_fap_file_number));
     }
     frame.number = static_cast<std::uint32_t>(number);
 

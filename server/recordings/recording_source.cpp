@@ -101,9 +101,8 @@ class RecordingSource : public streams::FrameSource {
 
 }  // namespace
 
-Result<std::shared_ptr<const streams::FrameSource>> make_recording_source(std::shared_ptr<const ByteSource> bytes,
-                                                                          std::string name,
-                                                                          const QuantizerSteps& steps) {
+Result<std::shared_ptr<const streams::FrameSource>> make_recording_source(
+    const std::shared_ptr<const ByteSource>& bytes, std::string name, const QuantizerSteps& steps) {
   // The chunks, and not what follows the last one: a damaged file may have any size.
   const auto found = RecordingReader::open(bytes, Check::heads);
   if (!found) return found.error();

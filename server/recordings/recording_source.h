@@ -13,6 +13,7 @@ namespace semblante::recordings {
 /// playing needs no disk. `steps`: of the stream it is played into; if the recording has others, levels are rounded to
 /// the nearest. Errors: empty (no frames), and those of a damaged chunk.
 Result<std::shared_ptr<const streams::FrameSource>> make_recording_source(
-    std::shared_ptr<const ByteSource> bytes, std::string name, const QuantizerSteps& steps = standard_quantizers());
+    const std::shared_ptr<const ByteSource>& bytes, std::string name,
+    const QuantizerSteps& steps = standard_quantizers());
 
 }  // namespace semblante::recordings
