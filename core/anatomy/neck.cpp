@@ -13,7 +13,7 @@
 #include "core/anatomy/point_lookup.h"
 #include "core/anatomy/smooth_step.h"
 #include "core/geometry/edge_path_search.h"
-#include "core/geometry/nearest_point.h"
+#include "core/geometry/nearest_vertex.h"
 
 namespace semblante {
 namespace {
@@ -92,52 +92,21 @@ bool is_below_chin(const Surface& surface, PartId part, const HeadLandmarks& mar
   return 2 * static_cast<std::size_t>(below) > members.size();
 }
 
-/// The skin of the face and how its vertices turn.
-class TurnedSkin {
- public:
-  TurnedSkin(const Surface& surface, const std::vector<bool>& is_skin, std::span<const std::uint8_t> turn)
-      : TurnedSkin(places_of(surface, is_skin), turns_of(is_skin, turn)) {}
-
-  struct Below {
-    double distance;
-    std::uint8_t turn;
-  };
-  /// The skin that is nearest to a place.
-  [[nodiscard]] Below below(const glm::dvec3& place) const {
-    const NearestPoint::Hit hit = nearest_.nearest(place);
-    return {hit.distance, turn_[hit.index]};
+std::vector<SurfaceVertexId> vertices_of(const std::vector<bool>& is_skin) {
+  std::vector<SurfaceVertexId> vertices;
+  for (std::uint32_t s = 0; s < is_skin.size(); ++s) {
+    if (is_skin[s]) vertices.emplace_back(s);
   }
-
- private:
-  TurnedSkin(const std::vector<glm::dvec3>& places, std::vector<std::uint8_t> turn)
-      : nearest_(places), turn_(std::move(turn)) {}
-
-  static std::vector<glm::dvec3> places_of(const Surface& surface, const std::vector<bool>& is_skin) {
-    std::vector<glm::dvec3> places;
-    for (std::size_t s = 0; s < is_skin.size(); ++s) {
-      if (is_skin[s]) places.push_back(surface.positions[s]);
-    }
-    return places;
-  }
-  static std::vector<std::uint8_t> turns_of(const std::vector<bool>& is_skin, std::span<const std::uint8_t> turn) {
-    std::vector<std::uint8_t> turns;
-    for (std::size_t s = 0; s < is_skin.size(); ++s) {
-      if (is_skin[s]) turns.push_back(turn[s]);
-    }
-    return turns;
-  }
-
-  NearestPoint nearest_;
-  std::vector<std::uint8_t> turn_;
-};
+  return vertices;
+}
 
 /// Whether a part below the chin hangs on the body: most of the skin beneath it does not turn.
-bool hangs_on_body(const Surface& surface, PartId part, const TurnedSkin& skin) {
-  double turn = 0.0;
+bool hangs_on_body(const Surface& surface, PartId part, const NearestVertex& skin, std::span<const std::uint8_t> turn) {
+  double sum = 0.0;
   const auto members = surface.members_of(part);
-  for (const SurfaceVertexId v : members) turn += skin.below(surface.positions[v.value()]).turn;
+  for (const SurfaceVertexId v : members) sum += turn[skin.nearest(surface.positions[v.value()]).vertex.value()];
   const auto count = static_cast<double>(members.size());
-  return turn < 0.5 * 255.0 * count;
+  return sum < 0.5 * 255.0 * count;
 }
 
 bool may_be_body(const Part& part) {
@@ -147,8 +116,8 @@ bool may_be_body(const Part& part) {
 /// By part: whether it is worn on the head, as hair is that reaches down to the waist: enough of its vertices lie on
 /// the skull. Parts of one name count together, because hair consists of strands; those without a name or with the
 /// skin's count alone.
-std::vector<bool> worn_on_head(const Surface& surface, std::span<const Part> parts, const TurnedSkin& skin,
-                               const HeadLandmarks& marks) {
+std::vector<bool> worn_on_head(const Surface& surface, std::span<const Part> parts, const NearestVertex& skin,
+                               std::span<const std::uint8_t> turn, const HeadLandmarks& marks) {
   std::set<std::string_view> names_of_skin = {""};
   for (const Part& part : parts) {
     if (part.role == PartRole::skin) names_of_skin.insert(part.name);
@@ -160,8 +129,8 @@ std::vector<bool> worn_on_head(const Surface& surface, std::span<const Part> par
   const auto lies_on_skull = [&](SurfaceVertexId v) {
     const glm::dvec3& place = surface.positions[v.value()];
     if (place.y < marks.chin.y + marks.height) return false;
-    const TurnedSkin::Below below = skin.below(place);
-    return below.distance < near_skull * marks.height && below.turn == 255;
+    const NearestVertex::Hit below = skin.nearest(place);
+    return below.distance < near_skull * marks.height && turn[below.vertex.value()] == 255;
   };
   struct Count {
     std::size_t vertices = 0, on_skull = 0;
@@ -186,15 +155,15 @@ std::vector<bool> worn_on_head(const Surface& surface, std::span<const Part> par
 void find_parts_of_body(const Surface& surface, std::span<Part> parts, const std::vector<bool>& is_skin,
                         std::span<const std::uint8_t> turn, const HeadLandmarks& marks) {
   // Made for the first part that needs them: most heads have none.
-  std::optional<TurnedSkin> skin;
+  std::optional<NearestVertex> skin;
   std::vector<bool> worn;
   for (std::uint32_t p = 0; p < parts.size(); ++p) {
     if (!may_be_body(parts[p]) || !is_below_chin(surface, PartId(p), marks)) continue;
     if (!skin) {
-      skin.emplace(surface, is_skin, turn);
-      worn = worn_on_head(surface, parts, *skin, marks);
+      skin.emplace(surface, vertices_of(is_skin));
+      worn = worn_on_head(surface, parts, *skin, turn, marks);
     }
-    if (!worn[p] && hangs_on_body(surface, PartId(p), *skin)) parts[p].role = PartRole::body;
+    if (!worn[p] && hangs_on_body(surface, PartId(p), *skin, turn)) parts[p].role = PartRole::body;
   }
 }
 

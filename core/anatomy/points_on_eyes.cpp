@@ -58,8 +58,8 @@ bool is_on_eye(const Surface& surface, const ModelledRims& rims, SurfaceVertexId
   return rims.is_of_eye(vertex) && rims.surround(surface.positions[vertex.value()]);
 }
 
-/// The vertex of a part nearest to a place, without a point and not on the eye. A corner is not on its ball either: the
-/// lids do not close before one that is (`find_modelled_eyes`).
+/// The vertex of a part that is nearest to a place, of those that have no point and do not lie on the eye. For a corner
+/// those on the eye's ball beside it are left out too: `find_modelled_eyes` closes no lids whose corner is one.
 std::optional<SurfaceVertexId> nearest_beside(const Surface& surface, PartId part, const ModelledRims& rims,
                                               std::span<const SurfacePoint> points, const glm::dvec3& place,
                                               bool is_corner) {

@@ -26,8 +26,8 @@ class DistancesFromAll {
     for (std::size_t source = 0; source < lane_of_.size(); ++source) row[source] = at(source, member);
   }
   /// Fetches the distances of a member into the cache. Each group of sources has its own row of them, far from the
-  /// others, and waiting for one row after the other takes longer than using them. Inlined always: GCC removes the call
-  /// of a function without an effect, and takes a prefetch for none.
+  /// others, and waiting for one row after the other takes longer than using them. Always inlined: GCC sees no effect
+  /// in a prefetch, and removes calls of functions without effects.
   __attribute__((always_inline)) void prefetch(std::size_t member) const {
     for (std::size_t group = 0; group < lane_of_.size(); group += DistanceGroup::lane_count) {
       const double* const lanes =

@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/anatomy/lid_edge.h"
-#include "core/geometry/nearest_point.h"
+#include "core/geometry/nearest_vertex.h"
 
 namespace semblante {
 namespace {
@@ -28,32 +28,6 @@ constexpr double longest_lash = 1.0;     ///< no vertex is farther from it
 constexpr double root = 0.03;            ///< a vertex so near to the edge is a root, and goes with it
 constexpr double of_one_lid = 0.8;       ///< of their vertices are nearer to the edge of one lid than to the other's:
                                          ///< what fills the gap between lid and eye is at both
-
-/// Vertices of skin, and the nearest of them to a place.
-class SkinVertices {
- public:
-  SkinVertices(const Surface& surface, std::vector<SurfaceVertexId> vertices)
-      : vertices_(std::move(vertices)), nearest_(positions_of(surface, vertices_)) {}
-
-  struct Hit {
-    SurfaceVertexId vertex;
-    double distance;
-  };
-  [[nodiscard]] Hit nearest(const glm::dvec3& place) const {
-    const NearestPoint::Hit hit = nearest_.nearest(place);
-    return {vertices_[hit.index], hit.distance};
-  }
-
- private:
-  static std::vector<glm::dvec3> positions_of(const Surface& surface, std::span<const SurfaceVertexId> vertices) {
-    std::vector<glm::dvec3> positions;
-    for (const SurfaceVertexId v : vertices) positions.push_back(surface.positions[v.value()]);
-    return positions;
-  }
-
-  std::vector<SurfaceVertexId> vertices_;
-  NearestPoint nearest_;
-};
 
 std::vector<SurfaceVertexId> vertices_of_skin(const Surface& surface, std::span<const Part> parts) {
   std::vector<SurfaceVertexId> vertices;
@@ -90,7 +64,7 @@ void smooth(const Surface& surface, std::span<const SurfaceVertexId> vertices, c
 
 /// The edges of the lids of one eye.
 struct EdgesOfEye {
-  SkinVertices upper, lower;
+  NearestVertex upper, lower;
   double width;
   bool is_closed;
 };
@@ -111,8 +85,8 @@ std::vector<EdgesOfEye> edges_of_eyes(const Surface& surface, std::span<const Pa
     if (!edges || !is_skin(edges->upper) || !is_skin(edges->lower)) continue;
     const double width = glm::distance(edges->upper.corners[0].position, edges->upper.corners[1].position);
     const double opening = edges->upper.middle.position.y - edges->lower.middle.position.y;
-    eyes.push_back({SkinVertices(surface, vertices_of(edges->upper)), SkinVertices(surface, vertices_of(edges->lower)),
-                    width, opening < closed_height * width});
+    eyes.push_back({NearestVertex(surface, vertices_of(edges->upper)),
+                    NearestVertex(surface, vertices_of(edges->lower)), width, opening < closed_height * width});
   }
   return eyes;
 }
@@ -145,7 +119,7 @@ std::optional<PartAtLids> at_lids(const Surface& surface, PartId part, std::span
 
 /// The edge of the lid whose lash a part is.
 struct EdgeOfLash {
-  const SkinVertices* edge = nullptr;  ///< null if the part is no lash
+  const NearestVertex* edge = nullptr;  ///< null if the part is no lash
   double eye_width = 0.0;
 };
 
@@ -188,7 +162,7 @@ std::vector<std::vector<FollowedVertex>> followed_by_attached(const Surface& sur
   if (std::none_of(parts.begin(), parts.end(), is_attached)) return followed;
   const std::vector<SurfaceVertexId> of_skin = vertices_of_skin(surface, parts);
   if (of_skin.empty()) return followed;
-  std::optional<SkinVertices> skin;  // made for the first part that needs it: lashes do not
+  std::optional<NearestVertex> skin;  // made for the first part that needs it: lashes do not
   const std::vector<EdgesOfEye> eyes = edges_of_eyes(surface, parts, points);
 
   std::vector<double> cost(surface.vertex_count(), infinite);
@@ -212,7 +186,7 @@ std::vector<std::vector<FollowedVertex>> followed_by_attached(const Surface& sur
       skin.emplace(surface, of_skin);
     }
     for (const SurfaceVertexId v : surface.members_of(PartId(p))) {
-      const SkinVertices::Hit hit = (edge != nullptr ? *edge : *skin).nearest(surface.positions[v.value()]);
+      const NearestVertex::Hit hit = (edge != nullptr ? *edge : *skin).nearest(surface.positions[v.value()]);
       is_root[v.value()] = edge != nullptr && hit.distance < root * eye_width;
       lower(v, air * hit.distance, hit.vertex);
     }

@@ -90,7 +90,7 @@ std::vector<Cavity> cavities_with_target(const Surface& surface, PartId part, st
   return cavities;
 }
 
-/// The points of a part, those on the edges of lips and lids with the shares of their margins.
+/// One site for each point of a part. A point on the edge of a lip or lid has the shares of its margin.
 std::vector<KrigingSite> sites_of_points(const PointDistances& distances, std::span<const MarginSite> margins) {
   std::vector<KrigingSite> sites = point_sites(distances);
   for (const MarginSite& margin : margins) {

@@ -86,7 +86,7 @@ export class Shelf {
     studio.activities.watch(draw);
     studio.shelf.watch(draw);
     this.low.addEventListener('change', draw);
-    // What stands below the list takes height from it when it grows.
+    // The list gets lower when what stands below it grows.
     new ResizeObserver(() => {
       if (isPartlySeen(this.list.querySelector('.selected'), this.list)) this.reveal('.selected');
     }).observe(this.list);

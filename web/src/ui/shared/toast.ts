@@ -33,7 +33,7 @@ export class Toasts {
   /** `action`: what a button below the text does, in place of advice. Returns what takes the message away. */
   problem(what: string, problem: Problem, action?: ToastAction): () => void {
     const advice = action ? null : adviceFor(problem);
-    // A fault of the whole file has its place in the title already.
+    // A fault of the whole file needs no place: the title names the file.
     const place = problem.pointer && problem.pointer !== '/file' ? problem.pointer : null;
     const detail = withShortSizes(wordsOf(problem));
     const click = (): void => {
