@@ -1,10 +1,32 @@
+import { readFileSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
 import { expect, test } from 'vitest';
+import { root } from './support/paths.ts';
 import { patience } from './support/patience.ts';
-import type { Inside } from './support/studio_page.ts';
-import { coarse } from './support/studio_page.ts';
+import { coarse, StudioPage, type Inside } from './support/studio_page.ts';
 import { browser, server, useStudio } from './support/suite.ts';
 
 useStudio();
+
+/** The file of the surroundings that light a head without a graphics card. */
+const surroundings = /\/assets\/room_32-[\w-]+\.bin$/;
+
+interface Lit {
+  semblante: {
+    scene: {
+      stage: {
+        renderer: { getContext(): WebGL2RenderingContext; properties: { get(texture: object): { __webglTexture: WebGLTexture } } };
+        scene: { environment: { image: { width: number }[]; mipmaps: { width: number }[] } };
+      };
+    };
+  };
+}
+
+/** The bits of a positive normal number of 16 bits. */
+function halfOf(value: number): number {
+  const bits = new Uint32Array(Float32Array.of(value).buffer)[0]!;
+  return (bits >>> 13) - (112 << 10);
+}
 
 test('Studio_FirstVisit_MovesWithAtMost900kB_OfItScript300kB', async () => {
   const context = await browser.newContext({ viewport: { width: 880, height: 560 }, deviceScaleFactor: coarse, serviceWorkers: 'block' });
@@ -38,10 +60,42 @@ test('Studio_FirstVisit_MovesWithAtMost900kB_OfItScript300kB', async () => {
   expect(sum(script)).toBeGreaterThan(100_000);
   expect(sum(script)).toBeLessThanOrEqual(300_000);
   expect(before.map(({ path }) => path)).not.toContain('/v1/models/sample/preview.glb');
-  // Without a graphics card, as here, most of the wait is for the surroundings that light the head.
-  const side = await page.evaluate(
-    () => (window as unknown as { semblante: { scene: { stage: { scene: { environment: { mipmaps: { width: number }[] } } } } } }).semblante.scene.stage.scene.environment.mipmaps[0]!.width,
-  );
+  // Without a graphics card, as here, the surroundings that light the head are not drawn: that would be a third of the wait.
+  expect(before.filter(({ path }) => surroundings.test(path)).length).toBe(1);
+  const side = await page.evaluate(() => (window as unknown as Lit).semblante.scene.stage.scene.environment.image[0]!.width);
   expect(side).toBe(32);
   await context.close();
+});
+
+test('Surroundings_WithoutTheirFile_AreDrawn_AndTheFileHasWhatThreeDraws', async () => {
+  const studio = await StudioPage.open(browser, 'about:blank', { seen: true, allowed: /ERR_FAILED/ });
+  await studio.page.route(surroundings, (route) => route.abort());
+  await studio.page.goto(server.url, { waitUntil: 'domcontentloaded' });
+  await studio.waitForStage('ready');
+  const levels = await studio.page.evaluate(() => {
+    const { renderer, scene: { environment } } = (window as unknown as Lit).semblante.scene.stage;
+    const gl = renderer.getContext();
+    gl.bindFramebuffer(gl.FRAMEBUFFER, gl.createFramebuffer());
+    const { __webglTexture: texture } = renderer.properties.get(environment);
+    return environment.mipmaps.flatMap(({ width }, level) =>
+      [1, 0, 2, 3, 4, 5].map((face) => {
+        gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_CUBE_MAP_POSITIVE_X + face, texture, level);
+        const pixels = new Float32Array(4 * width * width);
+        gl.readPixels(0, 0, width, width, gl.RGBA, gl.FLOAT, pixels);
+        // A cube of files is seen from outside, one that was drawn from inside: left is right.
+        return Array.from({ length: width * width }, (_, i) => Array.from(pixels.subarray(4 * (i ^ (width - 1)), 4 * (i ^ (width - 1)) + 4)));
+      }),
+    );
+  });
+  const pixels = levels.flat();
+  expect(pixels.every(([red, green, blue, alpha]) => red === green && red === blue && alpha === 1), 'the room has no colours').toBe(true);
+  const file = join(root, 'web/src/view/room_32.bin');
+  if (process.env['SEMBLANTE_WRITE_ROOM'] === '1') writeFileSync(file, Uint16Array.from(pixels, ([red]) => halfOf(red!)));
+  const stored = new Uint16Array(new Uint8Array(readFileSync(file)).buffer);
+  expect(stored.length).toBe(pixels.length);
+  // A level of the last bits: another processor may round otherwise.
+  const farthest = Math.max(...pixels.map(([red], i) => Math.abs(stored[i]! - halfOf(red!))));
+  expect(farthest).toBeLessThanOrEqual(16);
+  expect(studio.errors).toEqual([]);
+  await studio.close();
 });

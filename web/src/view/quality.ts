@@ -1,5 +1,6 @@
 import { coarse } from '@client/view/pace.ts';
 import { t } from '../words/words.ts';
+import { smallRoom } from './room.ts';
 
 /** Render settings for the graphics card. */
 export interface Quality {
@@ -7,7 +8,7 @@ export interface Quality {
   shadows: boolean;
   /** Whether skin has sheen and a second highlight. */
   richSkin: boolean;
-  /** Edge length of the environment cube map, pixels. */
+  /** Edge length of the environment cube map, pixels; `smallRoom`: it comes from a file. */
   roomSize: number;
   /** Drawn pixels for each pixel of the page, along a side: of a still picture. */
   maxPixelRatio: number;
@@ -16,7 +17,7 @@ export interface Quality {
 }
 
 const full: Quality = { antialias: true, shadows: true, richSkin: true, roomSize: 256, maxPixelRatio: 2, movingPixelRatio: 2 };
-const light: Quality = { antialias: false, shadows: false, richSkin: false, roomSize: 32, maxPixelRatio: 1, movingPixelRatio: coarse };
+const light: Quality = { antialias: false, shadows: false, richSkin: false, roomSize: smallRoom, maxPixelRatio: 1, movingPixelRatio: coarse };
 
 /** Lower quality for software renderers, where every shaded pixel is slow. Throws where WebGL 2 is missing. */
 export function chooseQuality(): Quality {

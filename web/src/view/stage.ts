@@ -19,7 +19,7 @@ import { fewerPixels, Pace } from '@client/view/pace.ts';
 import { Flight } from './flight.ts';
 import type { Box } from './head_box.ts';
 import type { Quality } from './quality.ts';
-import { drawRoom } from './room.ts';
+import { drawRoom, loadRoom, smallRoom } from './room.ts';
 
 export type ViewName = 'front' | 'left' | 'right' | 'three-quarter';
 
@@ -109,11 +109,12 @@ export class Stage {
     this.renderer.setClearColor(new Color(0), 0);
 
     this.scene.environmentIntensity = studioLight.environment;
-    this.drawEnvironment();
+    if (quality.roomSize === smallRoom) void this.loadEnvironment();
+    else this.drawEnvironment();
     // A phone takes the graphics context from a page in the background. three.js uploads meshes and textures again, but
     // not what was drawn into a texture.
     canvas.addEventListener('webglcontextrestored', () => {
-      this.drawEnvironment();
+      if (this.scene.environment?.isRenderTargetTexture) this.drawEnvironment();
       this.invalidate();
     });
 
@@ -380,6 +381,18 @@ export class Stage {
     this.scene.environment = drawRoom(this.renderer, this.quality.roomSize);
   }
 
+  /** Loads them; what is drawn waits for them, as each material's program is another without. */
+  private async loadEnvironment(): Promise<void> {
+    try {
+      const room = await loadRoom();
+      if (this.ended) room.dispose();
+      else this.scene.environment = room;
+    } catch {
+      if (!this.ended) this.drawEnvironment(); // the network, or an older server
+    }
+    this.invalidate();
+  }
+
   private placeLights(): void {
     const { center: c, radius: r } = this;
     for (const [light, place] of [
@@ -452,7 +465,7 @@ export class Stage {
     if (this.rest === 0 && this.pace.tick(passed, 0, false, false))
       this.movingPixelRatio = fewerPixels(this.renderer.getPixelRatio());
     this.fitPixels();
-    if (this.dirty) {
+    if (this.dirty && this.scene.environment) {
       this.dirty = false;
       this.renderer.render(this.scene, this.camera);
       this.framesInSecond += 1;
