@@ -6,6 +6,7 @@ import type { Page } from 'playwright-core';
 import { afterEach, expect, test } from 'vitest';
 import { untilFace } from './support/face_page.ts';
 import { writesPictures } from './support/looks.ts';
+import { closeUsedPages } from './support/page_rest.ts';
 import { eventually, patience } from './support/patience.ts';
 import { buildDir, root } from './support/paths.ts';
 import { leaveOutDraws, StudioPage } from './support/studio_page.ts';
@@ -22,7 +23,7 @@ const tolerance = 60;
 useStudio({ demo: false, voice: join(root, 'server/voice/examples/beeps.py') }, ['--autoplay-policy=no-user-gesture-required']);
 afterEach(async () => {
   await ask('DELETE', '/v1/streams/talk');
-  for (const context of browser.contexts()) await context.close();
+  await closeUsedPages(browser);
 });
 
 const ask = (method: string, path: string, body?: object): Promise<Response> =>

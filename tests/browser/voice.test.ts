@@ -2,6 +2,7 @@ import { join } from 'node:path';
 import type { Page } from 'playwright-core';
 import { afterEach, expect, test } from 'vitest';
 import { untilFace } from './support/face_page.ts';
+import { closeUsedPages } from './support/page_rest.ts';
 import { patience } from './support/patience.ts';
 import { root } from './support/paths.ts';
 import { coarse, leaveOutDraws } from './support/studio_page.ts';
@@ -80,7 +81,7 @@ const say = (text: string): Promise<Response> => ask('POST', '/v1/streams/talk/s
 
 afterEach(async () => {
   await ask('DELETE', '/v1/streams/talk');
-  for (const context of browser.contexts()) await context.close();
+  await closeUsedPages(browser);
 });
 
 test('BrowsersVoice_SaysTheText_AndTheFaceSpeaksWithoutFrames', async () => {

@@ -2,6 +2,7 @@ import { mkdirSync, readFileSync } from 'node:fs';
 import { basename, join } from 'node:path';
 import { chromium as driver, type Browser, type BrowserContext, type BrowserContextOptions, type Page } from 'playwright-core';
 import { writesPictures } from './looks.ts';
+import { rest, takeRested, watchForRest } from './page_rest.ts';
 import { buildDir, chromium } from './paths.ts';
 import { eventually, patience, within } from './patience.ts';
 
@@ -55,8 +56,8 @@ export interface OpenOptions {
   lively?: boolean;
   /**
    * Draws its head all the time; without it lively and sharp pages do. The others draw it while a test looks at it, see
-   * `StudioPage.seen`: without a graphics card the surroundings that light it and its first frame take as much of the processor as
-   * the rest of the opening of a page, and a face that moves takes more than all else on the page.
+   * `StudioPage.seen`: without a graphics card its first frame takes a third as much of the processor as the opening of a page, and a face
+   * that moves takes more than all else on the page.
    */
   seen?: boolean;
   /** Console errors that the test expects; a refused request, for example, is logged as a failed one. */
@@ -68,6 +69,12 @@ export const coarse = 0.5;
 
 /** What pages are that do not state it, in the present test file. */
 export const usual: Required<Pick<OpenOptions, 'lively'>> = { lively: false };
+
+/** How seldom a page with these options draws: see `OpenOptions`. */
+function drawingOf(options: Pick<OpenOptions, 'lively' | 'seen' | 'sharp'>): { isCalm: boolean; isUnseen: boolean } {
+  const isCalm = !(options.lively ?? usual.lively) && !options.sharp;
+  return { isCalm, isUnseen: !(options.seen ?? !isCalm) };
+}
 
 /** Until `window.isSeen`, draws of WebGL 2 do nothing. Runs in the page. */
 function drawUnseen(): void {
@@ -131,15 +138,20 @@ export const phone = { width: 390, height: 844, touch: true } as const;
 /** A page of the studio that records all errors of its console and scripts. */
 export class StudioPage {
   readonly errors: string[] = [];
+  private readonly size: { width: number; height: number };
+  private isClosed = false;
 
   private constructor(
     readonly context: BrowserContext,
     readonly page: Page,
     private readonly isUnseen: boolean,
-  ) {}
+    private readonly kind?: string,
+  ) {
+    this.size = page.viewportSize()!;
+  }
 
   static async open(browser: Browser, url: string, options: OpenOptions = {}): Promise<StudioPage> {
-    const context = await browser.newContext({
+    const given: BrowserContextOptions = {
       viewport: { width: options.width ?? 880, height: options.height ?? 560 },
       colorScheme: options.dark ? 'dark' : 'light',
       reducedMotion: options.motion ?? 'reduce',
@@ -147,15 +159,17 @@ export class StudioPage {
       serviceWorkers: 'block', // it loads the whole studio a second time, and keeps it: see offline.test.ts
       ...(options.locale ? { locale: options.locale } : {}),
       ...(options.touch ? { isMobile: true, hasTouch: true } : {}),
-    });
-    return StudioPage.openIn(context, url, options);
+    };
+    const kind = JSON.stringify([given, drawingOf(options)]);
+    const rested = takeRested(browser, kind);
+    if (rested) return StudioPage.show(rested, url, options, kind);
+    return StudioPage.openIn(await browser.newContext(given), url, options, kind);
   }
 
-  /** In a context of the test's own, which has no page yet. */
-  static async openIn(context: BrowserContext, url: string, options: Pick<OpenOptions, 'allowed' | 'lively' | 'seen' | 'sharp'> = {}): Promise<StudioPage> {
+  /** In a context of the test's own, which has no page yet. `kind`: of pages that may rest after the test. */
+  static async openIn(context: BrowserContext, url: string, options: Pick<OpenOptions, 'allowed' | 'lively' | 'seen' | 'sharp'> = {}, kind?: string): Promise<StudioPage> {
     context.setDefaultTimeout(patience);
-    const isCalm = !(options.lively ?? usual.lively) && !options.sharp;
-    const isUnseen = !(options.seen ?? !isCalm);
+    const { isCalm, isUnseen } = drawingOf(options);
     if (isCalm) await calmDown(context);
     if (isUnseen) await leaveOutDraws(context);
     const page = await context.newPage();
@@ -165,7 +179,12 @@ export class StudioPage {
     // By time: at each frame of the display, Playwright's usual way, the browser would prepare 60 frames a second.
     const waitForFunction = page.waitForFunction.bind(page) as (script: unknown, argument?: unknown, options?: object) => Promise<unknown>;
     page.waitForFunction = ((script: unknown, argument?: unknown, given?: object) => waitForFunction(script, argument, { polling: 50, ...given })) as Page['waitForFunction'];
-    const studio = new StudioPage(context, page, isUnseen);
+    if (kind !== undefined) await watchForRest(page);
+    return StudioPage.show(page, url, options, kind);
+  }
+
+  private static async show(page: Page, url: string, options: Pick<OpenOptions, 'allowed' | 'lively' | 'seen' | 'sharp'>, kind?: string): Promise<StudioPage> {
+    const studio = new StudioPage(page.context(), page, drawingOf(options).isUnseen, kind);
     const report = (fault: string): void => {
       if (!options.allowed?.test(fault)) studio.errors.push(fault);
     };
@@ -261,10 +280,7 @@ export class StudioPage {
       const scene = (window as unknown as Partial<Inside>).semblante?.scene; // the sign-in has none
       const stages = [scene, scene?.twin].flatMap((one) => (one ? [one.stage] : []));
       const drawn = stages.map((stage) => stage.drawn);
-      for (const stage of stages) {
-        if (!('hasSurroundings' in stage)) stage.drawEnvironment(); // a texture, drawn once
-        Object.assign(stage, { hasSurroundings: true }).invalidate();
-      }
+      for (const stage of stages) stage.invalidate();
       while (stages.some((stage, i) => stage.drawn === drawn[i])) await new Promise(requestAnimationFrame);
     });
     try {
@@ -395,8 +411,11 @@ export class StudioPage {
     await this.seen(() => this.page.screenshot({ path: join(folder, `${name}.png`) }));
   }
 
-  close(): Promise<void> {
-    return this.context.close();
+  /** Ends the test's use of the page, which rests for another test if it can. */
+  async close(): Promise<void> {
+    if (this.isClosed) return;
+    this.isClosed = true; // the page may be another test's by now
+    if (this.kind === undefined || !(await rest(this.page, this.kind, this.size))) await this.context.close();
   }
 }
 
@@ -408,7 +427,7 @@ export interface Inside {
       markers: {
         project(position: readonly number[], camera: unknown, width: number, height: number): { x: number; y: number };
       };
-      stage: { camera: { position: { toArray(): number[] } }; framesPerSecond: number; drawn: number; invalidate(): void; drawEnvironment(): void };
+      stage: { camera: { position: { toArray(): number[] } }; framesPerSecond: number; drawn: number; invalidate(): void };
       twin: { stage: Inside['semblante']['scene']['stage'] } | null;
       face: {
         mesh: { vertexCount: number; rowOffsets: Uint32Array; rowWeights: Float32Array };

@@ -1,5 +1,6 @@
 import type { Browser } from 'playwright-core';
 import { afterAll, beforeAll } from 'vitest';
+import { closeUsedPages } from './page_rest.ts';
 import { within } from './patience.ts';
 import { startServer, type RunningServer, type ServerOptions } from './server.ts';
 import { launch, usual, type OpenOptions } from './studio_page.ts';
@@ -8,7 +9,10 @@ import { launch, usual, type OpenOptions } from './studio_page.ts';
 export let server: RunningServer;
 export let browser: Browser;
 
-/** A browser starts in seconds, and its graphics compile their programs anew: one serves all files, which run one after the other. */
+/**
+ * A browser starts in seconds, and its graphics compile their programs anew: one serves all files of a process, which run
+ * one after the other.
+ */
 let started: Promise<Browser> | undefined;
 
 async function sharedBrowser(): Promise<Browser> {
@@ -17,15 +21,14 @@ async function sharedBrowser(): Promise<Browser> {
   return started!;
 }
 
-/** Gives the tests of a file a browser without pages, and closes them after. With arguments of Chromium it is the file's own. */
+/** Gives the tests of a file a browser without pages, but for those that rest, and closes them after. With arguments of Chromium it is the file's own. */
 export function useBrowser(args: string[] = []): void {
   const isOwn = args.length > 0;
   beforeAll(async () => {
     browser = await (isOwn ? launch(args) : sharedBrowser());
   });
   afterAll(async () => {
-    const closed = isOwn ? [browser?.close()] : (browser?.contexts() ?? []).map((context) => context.close());
-    await within('the pages are closed', Promise.all(closed));
+    if (browser) await within('the pages are closed', isOwn ? browser.close() : closeUsedPages(browser));
   });
 }
 
