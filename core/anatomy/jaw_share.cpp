@@ -88,7 +88,7 @@ std::vector<SurfaceVertexId> sockets_of(const Surface& surface, std::span<const 
     positions.push_back(p);
   }
   if (around.empty()) return {};
-  const NearestPoint near_part(positions);
+  NearestPoint near_part(positions);
   std::size_t touching = 0;
   for (const glm::dvec3& t : near) {
     touching += static_cast<std::size_t>(near_part.has_within(t, touch));
@@ -98,7 +98,7 @@ std::vector<SurfaceVertexId> sockets_of(const Surface& surface, std::span<const 
   // only with its tip (one in fifty).
   if (touching < enough) return {};
 
-  const NearestPoint near_teeth(near);
+  NearestPoint near_teeth(near);
   std::vector<SurfaceVertexId> sockets;
   for (std::size_t i = 0; i < around.size(); ++i) {
     // Half the distance, because the borders of the tongue are close to the teeth too.

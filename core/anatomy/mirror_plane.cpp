@@ -74,7 +74,7 @@ MirrorPlane refine_mirror_plane(const MirrorPlane& start, std::span<const Mirror
   // All surface pairs together have the weight of the marked points, which are more reliable.
   const double marked = static_cast<double>(std::max<std::size_t>(1, pairs.size() + middle.size()));
   if (surface.size() < few) return start;
-  const NearestPoint partners(surface);
+  NearestPoint partners(surface);
   MirrorPlane plane = start;
   for (int round = 0; round < rounds; ++round) {
     std::vector<std::pair<double, MirrorPair>> found;

@@ -101,7 +101,7 @@ std::vector<SurfaceVertexId> vertices_of(const std::vector<bool>& is_skin) {
 }
 
 /// Whether a part below the chin hangs on the body: most of the skin beneath it does not turn.
-bool hangs_on_body(const Surface& surface, PartId part, const NearestVertex& skin, std::span<const std::uint8_t> turn) {
+bool hangs_on_body(const Surface& surface, PartId part, NearestVertex& skin, std::span<const std::uint8_t> turn) {
   double sum = 0.0;
   const auto members = surface.members_of(part);
   for (const SurfaceVertexId v : members) sum += turn[skin.nearest(surface.positions[v.value()]).vertex.value()];
@@ -116,7 +116,7 @@ bool may_be_body(const Part& part) {
 /// By part: whether it is worn on the head, as hair is that reaches down to the waist: enough of its vertices lie on
 /// the skull. Parts of one name count together, because hair consists of strands; those without a name or with the
 /// skin's count alone.
-std::vector<bool> worn_on_head(const Surface& surface, std::span<const Part> parts, const NearestVertex& skin,
+std::vector<bool> worn_on_head(const Surface& surface, std::span<const Part> parts, NearestVertex& skin,
                                std::span<const std::uint8_t> turn, const HeadLandmarks& marks) {
   std::set<std::string_view> names_of_skin = {""};
   for (const Part& part : parts) {

@@ -83,7 +83,7 @@ std::vector<Finding> find_holes(const Subject& head) {
     if (hole.places.size() < 256) hole.places.push_back(a);
   }
 
-  const NearestPoint nearest(skin_places);
+  NearestPoint nearest(skin_places);
   for (auto& [root, hole] : holes) {
     if (hole.length > longest * unit) continue;
     double least = std::numeric_limits<double>::infinity();

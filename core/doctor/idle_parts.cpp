@@ -43,7 +43,7 @@ struct Nearness {
   std::set<std::size_t> beside;  ///< points within reach
 };
 
-Nearness nearness_of(const Surface& surface, PartId part, const NearestPoint& points, double reach) {
+Nearness nearness_of(const Surface& surface, PartId part, NearestPoint& points, double reach) {
   Nearness near;
   for (const SurfaceVertexId v : surface.members_of(part)) {
     const auto hit = points.nearest(surface.positions[v.value()]);
@@ -125,7 +125,7 @@ void find_strangers(const Subject& head, std::vector<Finding>& out) {
     with_points.insert(head.surface.part_of[point.vertex.value()]);
   }
   if (places.empty()) return;
-  const NearestPoint nearest(places);
+  NearestPoint nearest(places);
   const double reach = beside_a_point * *head.frame.eye_separation;
   const auto& parts = head.rig.parts;
   std::vector<IdlePart> idle;

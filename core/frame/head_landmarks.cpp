@@ -204,7 +204,7 @@ std::optional<int> find_mirror_axis(const PartShape& shape) {
   constexpr std::size_t samples = 1500;
   const std::vector<glm::dvec3>& points = shape.positions;
   if (points.size() < 30) return std::nullopt;
-  const NearestPoint nearest(points);
+  NearestPoint nearest(points);
   const double size = glm::length(shape.extent());
   std::array<double, 3> error{};
   for (int axis = 0; axis < 3; ++axis) {

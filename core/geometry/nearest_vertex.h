@@ -21,7 +21,7 @@ class NearestVertex {
   NearestVertex(const Surface& surface, std::vector<SurfaceVertexId> vertices)
       : vertices_(std::move(vertices)), nearest_(positions_of(surface, vertices_)) {}
 
-  [[nodiscard]] Hit nearest(const glm::dvec3& place) const {
+  [[nodiscard]] Hit nearest(const glm::dvec3& place) {
     const NearestPoint::Hit hit = nearest_.nearest(place);
     return {vertices_[hit.index], hit.distance};
   }

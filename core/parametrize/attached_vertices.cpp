@@ -94,13 +94,13 @@ std::vector<EdgesOfEye> edges_of_eyes(const Surface& surface, std::span<const Pa
 /// A part that begins at the lids of an eye and ends near them.
 struct PartAtLids {
   PartId part;
-  const EdgesOfEye* eye;
+  EdgesOfEye* eye;
   double at_upper;  ///< of its vertices, by which share they are nearer to the edge of the upper lid
 };
 
-std::optional<PartAtLids> at_lids(const Surface& surface, PartId part, std::span<const EdgesOfEye> eyes) {
+std::optional<PartAtLids> at_lids(const Surface& surface, PartId part, std::span<EdgesOfEye> eyes) {
   const auto members = surface.members_of(part);
-  for (const EdgesOfEye& eye : eyes) {
+  for (EdgesOfEye& eye : eyes) {
     double nearest = infinite;
     double farthest = 0.0;
     std::size_t at_upper = 0;
@@ -119,14 +119,14 @@ std::optional<PartAtLids> at_lids(const Surface& surface, PartId part, std::span
 
 /// The edge of the lid whose lash a part is.
 struct EdgeOfLash {
-  const NearestVertex* edge = nullptr;  ///< null if the part is no lash
+  NearestVertex* edge = nullptr;  ///< null if the part is no lash
   double eye_width = 0.0;
 };
 
 /// By part. Where an eye is closed, its edges lie on each other and the lashes of both lids point the same way, over
 /// the lower one: the upper lid's are those that are nearer to its edge than the others are.
 std::vector<EdgeOfLash> edges_of_lashes(const Surface& surface, std::span<const Part> parts,
-                                        std::span<const EdgesOfEye> eyes) {
+                                        std::span<EdgesOfEye> eyes) {
   std::vector<EdgeOfLash> result(parts.size());
   std::vector<PartAtLids> found;
   for (std::uint32_t p = 0; p < parts.size(); ++p) {
@@ -134,7 +134,7 @@ std::vector<EdgeOfLash> edges_of_lashes(const Surface& surface, std::span<const 
     if (const auto part = at_lids(surface, PartId(p), eyes)) found.push_back(*part);
   }
   for (const PartAtLids& lash : found) {
-    const EdgesOfEye& eye = *lash.eye;
+    EdgesOfEye& eye = *lash.eye;
     double least = 0.0;
     double greatest = 1.0;
     if (eye.is_closed) {
@@ -163,7 +163,7 @@ std::vector<std::vector<FollowedVertex>> followed_by_attached(const Surface& sur
   const std::vector<SurfaceVertexId> of_skin = vertices_of_skin(surface, parts);
   if (of_skin.empty()) return followed;
   std::optional<NearestVertex> skin;  // made for the first part that needs it: lashes do not
-  const std::vector<EdgesOfEye> eyes = edges_of_eyes(surface, parts, points);
+  std::vector<EdgesOfEye> eyes = edges_of_eyes(surface, parts, points);
 
   std::vector<double> cost(surface.vertex_count(), infinite);
   const std::vector<EdgeOfLash> edges = edges_of_lashes(surface, parts, eyes);

@@ -213,7 +213,7 @@ std::vector<double> freedom_of_members(const Surface& surface, const PointDistan
     if (is_held(modelled, distances.members[m])) freedom[m] = 0.0;
   }
   if (edges.empty()) return freedom;
-  const NearestPoint nearest(edges);
+  NearestPoint nearest(edges);
   for (std::size_t m = 0; m < freedom.size(); ++m) {
     if (freedom[m] == 0.0) continue;
     const glm::dvec3& p = surface.positions[distances.members[m].value()];

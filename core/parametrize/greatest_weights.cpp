@@ -2,27 +2,33 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 namespace semblante {
 
 void keep_greatest(WeightRow& weights) {
-  std::size_t positive = 0;
-  weights.for_each([&](std::size_t, double w) { positive += w > 0.0 ? 1 : 0; });
-  if (positive <= max_smooth_influences) return;
-  // The greatest first, of equal ones the lower id; and the first that is dropped.
   struct Entry {
-    double weight = 0.0;
-    std::size_t id = 0;
+    double weight;
+    std::size_t id;
   };
-  std::array<Entry, max_smooth_influences + 1> greatest{};
+  std::array<Entry, feature_point_count> positive;
+  std::size_t count = 0;
   weights.for_each([&](std::size_t id, double weight) {
-    if (!(weight > greatest.back().weight)) return;
-    std::size_t at = max_smooth_influences;
-    for (; at > 0 && weight > greatest[at - 1].weight; --at) greatest[at] = greatest[at - 1];
-    greatest[at] = {weight, id};
+    positive[count] = {weight, id};
+    count += weight > 0.0 ? 1 : 0;
   });
+  if (count <= max_smooth_influences) return;
+  // The greatest first, of equal ones the lower id; and the first that is dropped.
+  std::array<Entry, max_smooth_influences + 1> greatest{};
+  double all = 0.0;
+  for (const Entry& entry : std::span(positive).first(count)) {
+    all += entry.weight;
+    if (!(entry.weight > greatest.back().weight)) continue;
+    std::size_t at = max_smooth_influences;
+    for (; at > 0 && entry.weight > greatest[at - 1].weight; --at) greatest[at] = greatest[at - 1];
+    greatest[at] = entry;
+  }
   const double first_out = greatest.back().weight;
-  const double all = sum_of(weights);
   double kept = 0.0;
   double lowered = 0.0;
   for (std::size_t k = 0; k < max_smooth_influences; ++k) {

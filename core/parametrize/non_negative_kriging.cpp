@@ -12,7 +12,10 @@ constexpr double least_gain = 1e-10;
 }  // namespace
 
 NonNegativeKriging::NonNegativeKriging(std::vector<double> covariance, std::size_t site_count)
-    : covariance_(std::move(covariance)), site_count_(site_count), factor_(site_count * site_count) {
+    : covariance_(std::move(covariance)),
+      site_count_(site_count),
+      factor_(site_count * site_count),
+      inverse_(site_count) {
   assert(covariance_.size() == site_count * site_count);
 }
 
@@ -24,10 +27,10 @@ void NonNegativeKriging::extend_factor(std::size_t row) {
     const double* const other = &factor_[c * site_count_];
     double sum = covariance(site, sites_[passive_[c]]);
     for (std::size_t i = 0; i < c; ++i) sum -= own[i] * other[i];
-    own[c] = sum / other[c];
+    own[c] = sum * inverse_[c];
     rest -= own[c] * own[c];
   }
-  own[row] = std::sqrt(std::max(rest, least_gain));
+  inverse_[row] = 1.0 / std::sqrt(std::max(rest, least_gain));
 }
 
 void NonNegativeKriging::solve_passive(std::span<const double> to_target) {
@@ -37,12 +40,12 @@ void NonNegativeKriging::solve_passive(std::span<const double> to_target) {
     const double* const row = &factor_[r * site_count_];
     double sum = to_target[passive_[r]];
     for (std::size_t i = 0; i < r; ++i) sum -= row[i] * trial_[i];
-    trial_[r] = sum / row[r];
+    trial_[r] = sum * inverse_[r];
   }
   for (std::size_t r = count; r-- > 0;) {
     double sum = trial_[r];
     for (std::size_t i = r + 1; i < count; ++i) sum -= factor_[i * site_count_ + r] * trial_[i];
-    trial_[r] = sum / factor_[r * site_count_ + r];
+    trial_[r] = sum * inverse_[r];
   }
 }
 

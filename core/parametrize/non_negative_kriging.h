@@ -34,7 +34,8 @@ class NonNegativeKriging {
   std::vector<std::uint8_t> is_passive_;
   std::vector<std::size_t> last_;  ///< passive sites of the last solution
   std::vector<double> trial_;      ///< unconstrained weights of passive_
-  std::vector<double> factor_;     ///< lower triangle, row by row, #F wide
+  std::vector<double> factor_;     ///< below the diagonal, row by row, #F wide
+  std::vector<double> inverse_;    ///< of its diagonal
   std::span<const std::size_t> sites_;
 };
 

@@ -25,6 +25,8 @@ constexpr double greatest_detour = 3.5;
 constexpr std::size_t landmark_count = 12;
 /// Number of members, in their order, that share a list of the sites within reach: as a rule they are near each other.
 constexpr std::size_t block_size = 16;
+/// Number of blocks, likewise, whose lists are chosen from one list.
+constexpr std::size_t run_length = 16;
 /// A member's distances are fetched this many members ahead: calls are for one member after the other.
 constexpr std::size_t fetched_ahead = 4;
 
@@ -134,25 +136,35 @@ SiteKriging::SiteKriging(const Surface& surface, const PointDistances& distances
       table_(kernel),
       reach_(unit * kernel.reach()),
       kriging_(covariances(sites_, unit, kernel), sites_.size()),
-      near_block_((distances.members.size() + block_size - 1) / block_size) {}
+      near_run_(distances.members.size() / (run_length * block_size) + 1),
+      near_block_(distances.members.size() / block_size + 1) {
+  for (std::size_t s = 0; s < sites_.size(); ++s) all_.push_back({sites_[s].position, s});
+}
 
-const std::vector<SiteKriging::NearSite>& SiteKriging::near_block(std::size_t block) {
-  if (near_block_[block]) return *near_block_[block];
+SiteKriging::NearSites SiteKriging::within_reach(const NearSites& sites, std::size_t first, std::size_t count) const {
   glm::dvec3 low(std::numeric_limits<double>::infinity());
   glm::dvec3 high(-low);
-  const std::size_t first = block * block_size;
-  const std::size_t last = std::min(first + block_size, distances_.members.size());
+  const std::size_t last = std::min(first + count, distances_.members.size());
   for (std::size_t m = first; m < last; ++m) {
     const glm::dvec3& p = surface_.positions[distances_.members[m].value()];
     low = glm::min(low, p);
     high = glm::max(high, p);
   }
-  std::vector<NearSite>& near = near_block_[block].emplace();
-  for (std::size_t s = 0; s < sites_.size(); ++s) {
-    const glm::dvec3& p = sites_[s].position;
-    if (glm::distance(p, glm::clamp(p, low, high)) < reach_) near.push_back({p, s});
+  NearSites near;
+  for (const NearSite& site : sites) {
+    if (glm::distance(site.position, glm::clamp(site.position, low, high)) < reach_) near.push_back(site);
   }
   return near;
+}
+
+const SiteKriging::NearSites& SiteKriging::near_block(std::size_t block) {
+  std::optional<NearSites>& near = near_block_[block];
+  if (near) return *near;
+  const std::size_t run = block / run_length;
+  std::optional<NearSites>& around = near_run_[run];
+  if (!around) around = within_reach(all_, run * run_length * block_size, run_length * block_size);
+  near = within_reach(*around, block * block_size, block_size);
+  return *near;
 }
 
 std::span<const SiteKriging::Term> SiteKriging::at(std::size_t member) {

@@ -82,8 +82,11 @@ class SiteKriging {
     glm::dvec3 position;  ///< of the site: most are looked at no further
     std::size_t site;
   };
-  /// The sites within reach of the box of a block of members; by far most are out.
-  const std::vector<NearSite>& near_block(std::size_t block);
+  using NearSites = std::vector<NearSite>;
+  /// Those of `sites` that are within reach of the box of the members from `first` on, at most `count`.
+  [[nodiscard]] NearSites within_reach(const NearSites& sites, std::size_t first, std::size_t count) const;
+  /// The sites within reach of a block of members: by far most are out, and out of reach of the blocks around it.
+  const NearSites& near_block(std::size_t block);
 
   const Surface& surface_;
   const PointDistances& distances_;
@@ -93,7 +96,8 @@ class SiteKriging {
   KernelTable table_;
   double reach_;  ///< model units
   NonNegativeKriging kriging_;
-  std::vector<std::optional<std::vector<NearSite>>> near_block_;  ///< those that were asked for
+  NearSites all_;
+  std::vector<std::optional<NearSites>> near_run_, near_block_;  ///< by run of blocks, and by block: those asked for
   std::vector<std::size_t> candidates_;
   std::vector<double> to_target_;
   std::vector<Term> terms_;

@@ -16,7 +16,7 @@ TEST(NearestPoint, RandomPoints_EqualTheScan) {
   for (const std::size_t count : {1U, 2U, 3U, 50U, 1000U}) {
     std::vector<glm::dvec3> points(count);
     for (glm::dvec3& p : points) p = draw();
-    const NearestPoint tree(points);
+    NearestPoint tree(points);
     for (int query = 0; query < 300; ++query) {
       const glm::dvec3 to = draw() + glm::dvec3(0.5, 0.0, 0.25);
       std::uint32_t expected = 0;
