@@ -14,6 +14,8 @@ export const smallRoom = 32;
 const leastSize = 8;
 /** 1 as a number of 16 bits. */
 const opaque = 0x3c00;
+/** ms; the head waits for its surroundings. */
+const longestWait = 10_000;
 
 /** three.js makes an environment map at least 256 pixels wide. */
 class SmallPmremGenerator extends PMREMGenerator {
@@ -39,7 +41,7 @@ export function drawRoom(renderer: WebGLRenderer, size: number): Texture {
  * room has no colours. `tests/browser/first_load.test.ts` compares it with what three.js draws, and writes it.
  */
 export async function loadRoom(): Promise<Texture> {
-  const response = await fetch(new URL('./room_32.bin', import.meta.url));
+  const response = await fetch(new URL('./room_32.bin', import.meta.url), { signal: AbortSignal.timeout(longestWait) });
   if (!response.ok) throw new Error(`${response.url}: status ${response.status}`);
   const light = new Uint16Array(await response.arrayBuffer());
   const faces = Array.from({ length: 6 }, () => ({ width: smallRoom, height: smallRoom, mipmaps: [] as { data: Uint16Array; width: number; height: number }[] }));
