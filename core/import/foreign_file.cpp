@@ -53,18 +53,32 @@ constexpr auto foreign_formats = std::to_array<ForeignFormat>({
     {"JPEG", Kind::picture, "", "\xFF\xD8\xFF"},
 });
 
-std::string sentence(Kind kind, std::string_view title) {
+Advice advice_for(Kind kind) {
+  switch (kind) {
+    case Kind::scene:
+      return Advice::export_as_glb;
+    case Kind::archive:
+      return Advice::unpack;
+    case Kind::picture:
+      break;
+  }
+  return Advice::choose_model;
+}
+
+std::string sentence_of(Kind kind, std::string_view title) {
   const std::string name(title);
   switch (kind) {
     case Kind::scene:
-      return "the format of the file is " + name + ", none of " + model_file_titles() + ": export the head as GLB";
+      return "the format of the file is " + name + ", none of " + model_file_titles();
     case Kind::archive:
-      return "the file is packed (" + name + "): send the model that is in it, or a zip";
+      return "the file is packed (" + name + ")";
     case Kind::picture:
-      return "the file is a picture (" + name + "), not a model";
+      break;
   }
-  return {};
+  return "the file is a picture (" + name + "), not a model";
 }
+
+ForeignFile foreign(Kind kind, std::string_view title) { return {sentence_of(kind, title), advice_for(kind)}; }
 
 /// A 3DS file begins with the letters MM and its own size. The letters alone may begin any file.
 bool is_3ds(std::span<const std::uint8_t> bytes) {
@@ -76,34 +90,33 @@ bool is_3ds(std::span<const std::uint8_t> bytes) {
 
 }  // namespace
 
-std::optional<std::string> foreign_file(std::span<const std::uint8_t> bytes) {
+std::optional<ForeignFile> foreign_file(std::span<const std::uint8_t> bytes) {
   std::string_view text = as_text(bytes);
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   for (const ForeignFormat& format : foreign_formats) {
-    if (!format.magic.empty() && text.starts_with(format.magic)) return sentence(format.kind, format.title);
+    if (!format.magic.empty() && text.starts_with(format.magic)) return foreign(format.kind, format.title);
   }
-  if (is_3ds(bytes)) return sentence(Kind::scene, "3DS");
+  if (is_3ds(bytes)) return foreign(Kind::scene, "3DS");
   if (text.starts_with("version https://git-lfs")) {
-    return "the file is a pointer of Git LFS in place of the model: git lfs pull fetches the model";
+    return ForeignFile{"the file is a pointer of Git LFS in place of the model", Advice::fetch_from_lfs};
   }
   const std::size_t begin = std::min(text.find_first_not_of(" \t\r\n"), text.size());
   const std::string head = lower_case(text.substr(begin, 4096));
   if (head.starts_with("<!doctype html") || head.starts_with("<html")) {
-    return "the file is a web page, not a model: download the model itself";
+    return ForeignFile{"the file is a web page, not a model", Advice::download_model};
   }
   if (!head.starts_with('<')) return std::nullopt;
-  if (head.find("<collada") != std::string::npos) return sentence(Kind::scene, "COLLADA");
-  if (head.find("<x3d") != std::string::npos) return sentence(Kind::scene, "X3D");
+  if (head.find("<collada") != std::string::npos) return foreign(Kind::scene, "COLLADA");
+  if (head.find("<x3d") != std::string::npos) return foreign(Kind::scene, "X3D");
   return std::nullopt;
 }
 
-std::optional<std::string> foreign_zip(const std::vector<std::string>& names) {
+std::optional<ForeignFile> foreign_zip(const std::vector<std::string>& names) {
   for (const ForeignFormat& format : foreign_formats) {
     if (format.ending.empty()) continue;
     for (const std::string& name : names) {
       if (!lower_case(name).ends_with(format.ending)) continue;
-      return "the zip has no model but " + shown(name) +
-             (format.kind == Kind::scene ? ": export the head as GLB" : ": send the model that is in it");
+      return ForeignFile{"the zip has no model but " + shown(name), advice_for(format.kind)};
     }
   }
   return std::nullopt;

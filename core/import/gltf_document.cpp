@@ -76,8 +76,8 @@ bool is_index_type(std::uint64_t type) { return type == u8 || type == u16 || typ
 Result<std::vector<std::uint8_t>> GltfDocument::resource(const std::string& uri) {
   const bool is_data = uri.starts_with("data:");
   if (!is_data && !resources_) {
-    return Error{ErrorCode::unsupported, "",
-                 "refers to " + shown(uri) + ", which is another file; send a GLB, or a zip with all files"};
+    return Error{ErrorCode::unsupported, "", "refers to " + shown(uri) + ", which is another file",
+                 Advice::send_all_files};
   }
   const std::size_t left = limits_.max_file_bytes - std::min(resource_bytes_, limits_.max_file_bytes);
   auto bytes = is_data ? decode_data_uri(uri, left) : resources_(uri, left);
@@ -100,7 +100,7 @@ std::span<const std::uint8_t> GltfDocument::buffer(std::size_t index) {
     if (!loaded_[index]) {
       auto loaded = resource(where.member("uri").text());
       if (!loaded) {
-        where.member("uri").fail(loaded.error().code, loaded.error().message);
+        where.member("uri").fail(loaded.error());
         return {};
       }
       loaded_[index] = std::move(*loaded);

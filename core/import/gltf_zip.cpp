@@ -24,7 +24,8 @@ Result<std::optional<std::string>> only_entry(const std::vector<std::string>& na
   for (const std::string& name : names) {
     if (!has_ending(name, ending)) continue;
     if (found) {
-      return Error{ErrorCode::invalid_argument, "", "the zip has two models, " + shown(*found) + " and " + shown(name)};
+      return Error{ErrorCode::invalid_argument, "", "the zip has two models, " + shown(*found) + " and " + shown(name),
+                   Advice::send_one_model};
     }
     found = name;
   }
@@ -69,8 +70,9 @@ Result<Model> read_gltf_zip(std::span<const std::uint8_t> bytes, const ImportLim
     break;
   }
   if (!name) {
-    const auto other = foreign_zip(names);
-    return Error{ErrorCode::missing, "", other.value_or("the zip has no .gltf, .glb, .vrm, .obj, .ply or .stl file")};
+    if (const auto other = foreign_zip(names)) return Error{ErrorCode::missing, "", other->sentence, other->advice};
+    return Error{ErrorCode::missing, "", "the zip has no .gltf, .glb, .vrm, .obj, .ply or .stl file",
+                 Advice::export_as_glb};
   }
   const auto model = archive->read(*name, limits.max_file_bytes);
   if (!model) return model.error();
@@ -89,7 +91,8 @@ Result<Model> read_gltf_zip(std::span<const std::uint8_t> bytes, const ImportLim
   const auto resources = [&](std::string_view uri, std::size_t max_bytes) -> Result<std::vector<std::uint8_t>> {
     const auto entry = resolve_below(folder, uri);
     if (!entry) {
-      return Error{ErrorCode::unsupported, "", "refers to " + shown(uri) + ", which is outside of the zip"};
+      return Error{ErrorCode::unsupported, "", "refers to " + shown(uri) + ", which is outside of the zip",
+                   Advice::send_all_files};
     }
     return archive->read(*entry, max_bytes);
   };

@@ -63,8 +63,9 @@ std::optional<ModelFormat> detect_format(std::span<const std::uint8_t> bytes, st
 
 Result<ModelFormat> format_of(std::span<const std::uint8_t> bytes, std::string_view file_name) {
   if (const auto format = detect_format(bytes, file_name)) return *format;
-  const auto foreign = import::foreign_file(bytes);
-  return Error{ErrorCode::unsupported, "", foreign.value_or("the file is none of " + model_file_titles())};
+  if (const auto foreign = import::foreign_file(bytes))
+    return Error{ErrorCode::unsupported, "", foreign->sentence, foreign->advice};
+  return Error{ErrorCode::unsupported, "", "the file is none of " + model_file_titles(), Advice::export_as_glb};
 }
 
 Result<Model> import_model(std::span<const std::uint8_t> bytes, ModelFormat format, const ImportLimits& limits,
@@ -72,7 +73,8 @@ Result<Model> import_model(std::span<const std::uint8_t> bytes, ModelFormat form
   if (bytes.size() > limits.max_file_bytes) {
     return Error{ErrorCode::too_large, "",
                  "the file has " + std::to_string(bytes.size()) + " bytes, at most " +
-                     std::to_string(limits.max_file_bytes) + " are allowed"};
+                     std::to_string(limits.max_file_bytes) + " are allowed",
+                 Advice::reduce_model};
   }
   if (bytes.empty()) return Error{ErrorCode::empty, "", "the file is empty"};
   try {
@@ -93,7 +95,7 @@ Result<Model> import_model(std::span<const std::uint8_t> bytes, ModelFormat form
     return Error{ErrorCode::invalid_argument, "", "unknown model format"};
   } catch (const std::bad_alloc&) {
     // Within the limits, but more memory than this machine has: an error of the file must not end the server.
-    return Error{ErrorCode::too_large, "", "the model needs more memory than is available"};
+    return Error{ErrorCode::too_large, "", "the model needs more memory than is available", Advice::reduce_model};
   }
 }
 

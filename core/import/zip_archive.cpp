@@ -58,7 +58,7 @@ std::vector<std::string> ZipArchive::names() const {
 
 Result<std::vector<std::uint8_t>> ZipArchive::read(const std::string& name, std::size_t max_bytes) {
   const zip_int64_t found = zip_name_locate(archive_.get(), name.c_str(), ZIP_FL_ENC_GUESS);
-  if (found < 0) return Error{ErrorCode::missing, "", "the zip has no entry " + shown(name)};
+  if (found < 0) return Error{ErrorCode::missing, "", "the zip has no entry " + shown(name), Advice::send_all_files};
   const auto index = static_cast<zip_uint64_t>(found);
   const auto too_large = [&] {
     return Error{

@@ -27,6 +27,12 @@ void JsonCursor::fail(ErrorCode code, std::string message) const {
 
 void JsonCursor::fail(ErrorCode code, const char* message) const { fail(code, std::string(message)); }
 
+void JsonCursor::fail(Error error) const {
+  if (failed()) return;
+  error.where = pointer_;
+  *report_ = std::move(error);
+}
+
 bool JsonCursor::is_null() const { return node_.kind() == JsonKind::null; }
 bool JsonCursor::is_text() const { return node_.kind() == JsonKind::text; }
 bool JsonCursor::is_array() const { return node_.kind() == JsonKind::array; }

@@ -30,6 +30,8 @@ class JsonCursor {
   /// Reports an error at this position, unless an earlier one is reported.
   void fail(ErrorCode code, std::string message) const;
   void fail(ErrorCode code, const char* message) const;
+  /// With the place of this value.
+  void fail(Error error) const;
   [[nodiscard]] bool failed() const { return report_->has_value(); }
   [[nodiscard]] const std::string& pointer() const { return pointer_; }
 

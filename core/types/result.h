@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "core/types/advice.h"
+
 namespace semblante {
 
 /// The kind of error, independent of the place of its detection. The REST layer maps each to a stable problem `type`.
@@ -26,16 +28,18 @@ enum class ErrorCode {
 };
 
 /// `code` for programs; `where` (JSON pointer, field, byte offset or line; may be empty) and `message` for display.
+/// `advice` is set where the kind of error alone does not tell what helps: `message` does not repeat it.
 struct Error {
   Error() = default;
-  Error(ErrorCode kind, std::string place, std::string words)
-      : code(kind), where(std::move(place)), message(std::move(words)) {}
+  Error(ErrorCode kind, std::string place, std::string words, std::optional<Advice> helps = std::nullopt)
+      : code(kind), where(std::move(place)), message(std::move(words)), advice(helps) {}
   /// Of fixed texts, which many errors have: small code where they are made.
   Error(ErrorCode kind, const char* place, const char* words);
 
   ErrorCode code = ErrorCode::internal;
   std::string where;
   std::string message;
+  std::optional<Advice> advice;
 };
 
 /// A value or an error. For untrusted input; mistakes of the caller are asserts. An error is on the heap: few results

@@ -14,11 +14,15 @@ std::string words_of(const HttpResponse& response) {
   const auto document =
       read_json_object_tree(response.body, {.max_bytes = 1U << 20U, .max_depth = 16, .max_values = 10'000});
   if (!document) return words;
-  for (const char* member : {"title", "detail", "pointer"}) {
+  const auto member_of = [&](const char* name) {
     JsonCursor::Report report;
-    const std::string text = JsonCursor(*document, report).text_or(member, "");
+    return JsonCursor(*document, report).text_or(name, "");
+  };
+  for (const char* member : {"title", "detail", "pointer"}) {
+    const std::string text = member_of(member);
     if (!text.empty()) words += ": " + text.substr(0, 500);
   }
+  if (const auto advice = find_advice(member_of("advice"))) words.append(": ").append(text_of(*advice).words);
   return words;
 }
 

@@ -73,7 +73,7 @@ http::BodyPlan plan_body(const Route& route, std::string_view media_type, const 
     case BodyKind::fap:
       return {max_fap_body_bytes, true, body.announced};
     case BodyKind::upload:
-      break;
+      return {limits.max_upload_bytes, true, body.announced, false, Advice::reduce_model};
   }
   return {limits.max_upload_bytes, true, body.announced};
 }

@@ -33,6 +33,12 @@ void refuse(std::string_view slug, std::string detail, std::string pointer) {
   throw Refused{http::make_problem(slug, std::move(detail), std::move(pointer))};
 }
 
+void refuse(std::string_view slug, std::string detail, std::string pointer, std::optional<Advice> advice) {
+  auto problem = http::make_problem(slug, std::move(detail), std::move(pointer));
+  problem.advice = advice;
+  throw Refused{std::move(problem)};
+}
+
 void refuse_for_now(std::string detail, unsigned retry_after) {
   throw Refused{http::make_problem("too-many-requests", std::move(detail)), retry_after};
 }
@@ -54,8 +60,9 @@ JsonBody body_object(const http::Request& request) {
   if (request.body.empty()) return JsonBody::object();
   auto json = read_json(request.body, {.max_bytes = 1U << 20U, .max_depth = 64, .max_values = max_body_values});
   if (!json) {
-    const auto& [code, where, message] = json.error();
-    refuse("malformed-request", "the body cannot be read: " + (where.empty() ? "" : where + ": ") + message, where);
+    const auto& where = json.error().where;
+    refuse("malformed-request",
+           "the body cannot be read: " + (where.empty() ? "" : where + ": ") + json.error().message, where);
   }
   if (!json->is_object()) refuse("invalid-field", "the body must be a JSON object");
   return *std::move(json);

@@ -75,7 +75,7 @@ std::vector<store::FeaturePointRecord> read_points(std::string_view text) {
 void check_file(std::string_view bytes, const std::string& file_name, const std::string& pointer) {
   if (bytes.empty()) refuse("empty-model", "the file is empty", pointer);
   const auto format = format_of({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, file_name);
-  if (!format) refuse("unsupported-model", format.error().message, pointer);
+  if (!format) refuse("unsupported-model", format.error().message, pointer, format.error().advice);
 }
 
 ExampleRequest read_form(std::string_view body, std::string_view boundary) {

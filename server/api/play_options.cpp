@@ -49,8 +49,10 @@ http::Response play_into(Context& context, const std::string& stream,
     refuse("invalid-argument", "begins after the end", "?from");
   const auto playing = context.hub.play(stream, std::move(source), options);
   if (!playing) {
-    const auto& [code, where, message] = playing.error();
-    if (code == ErrorCode::too_large) refuse("limit-exceeded", message);
+    const auto& code = playing.error().code;
+    const auto& message = playing.error().message;
+    // What plays elsewhere has the memory, and nothing that is stored.
+    if (code == ErrorCode::too_large) refuse("limit-exceeded", message, {}, std::nullopt);
     refuse(code == ErrorCode::missing ? "not-found" : "conflict", message);
   }
   const auto body = represent(*playing);

@@ -68,6 +68,7 @@ http::Problem reached(std::string_view slug, const Quota& quota, std::string_vie
   auto problem = http::make_problem(slug, "the token has reached its limit of " + limit + " " +
                                               std::string(quota.name) + ", of which it has used " + used + ": " +
                                               std::string(remedy) + ", or ask the server's administrator for more");
+  problem.advice = std::nullopt;  // the sentence names what to delete, which depends on the limit
   problem.limit = http::ReachedLimit{std::string(quota.name), *quota.limit, quota.used};
   return problem;
 }

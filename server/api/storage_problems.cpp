@@ -12,22 +12,16 @@ std::string_view slug_of(bool disk_full) { return disk_full ? "insufficient-stor
 http::Problem problem_of(const store::StoreError& error) {
   const bool disk_full = dynamic_cast<const store::DiskFull*>(&error) != nullptr;
   if (dynamic_cast<const store::NotEnoughRoom*>(&error) != nullptr)
-    return http::make_problem(slug_of(disk_full), "the disk is nearly full: free some room and try again");
+    return http::make_problem(slug_of(disk_full), "the disk is nearly full");
   return http::make_problem(slug_of(disk_full),
-                            disk_full ? "the disk of the server is full: free some room and try again"
+                            disk_full ? "the disk of the server is full"
                                       : "the server cannot read or write its data folder: its log says why");
 }
 
-http::Problem problem_of(const store::DamagedBlob& error) {
-  return http::make_problem(
-      "damaged-data", std::string(error.what()) +
-                          ". Storing the same bytes again mends it: upload the same file, or parametrize the model "
-                          "again");
-}
+http::Problem problem_of(const store::DamagedBlob& error) { return http::make_problem("damaged-data", error.what()); }
 
 void refuse_unkept(const Error& error) {
-  const auto& [code, where, message] = error;
-  throw store::StoreError(where.empty() ? message : where + ": " + message);
+  throw store::StoreError(error.where.empty() ? error.message : error.where + ": " + error.message);
 }
 
 void refuse_pending(const Context& context, const std::string& effect) {

@@ -14,7 +14,7 @@ namespace semblante::api {
 /// `storage-unavailable`.
 http::Problem problem_of(const store::StoreError& error);
 
-/// 500 `damaged-data`: names the blob, and says what mends it.
+/// 500 `damaged-data`: names the blob.
 http::Problem problem_of(const store::DamagedBlob& error);
 
 /// Throws StoreError for a file that cannot be stored; Api::handle turns it into the answer.

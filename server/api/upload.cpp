@@ -34,9 +34,7 @@ Upload take_form(const http::Request& request) {
   const http::FormPart* file = nullptr;
   for (const auto& part : *parts) {
     if (part.name == "file") {
-      if (file != nullptr)
-        refuse("invalid-field", "the form has two parts \"file\": send a zip of the model and its other files",
-               "/file");
+      if (file != nullptr) refuse("invalid-field", "the form has two parts \"file\"", "/file", Advice::send_all_files);
       file = &part;
     }
     if (part.name == "name" && !part.content.empty()) upload.name = checked_text(part.content, max_name_bytes, "/name");
@@ -83,7 +81,7 @@ http::Response create_model(Context& context, http::Request& request) {
     const MappedFile mapped(upload.path);
     if (mapped.bytes().empty()) refuse("empty-model", "the file is empty", "/file");
     if (const auto format = format_of(mapped.bytes(), upload.file_name); !format)
-      refuse("unsupported-media-type", format.error().message, "/file");
+      refuse("unsupported-media-type", format.error().message, "/file", format.error().advice);
     hash = sha256_hex(mapped.text());
   }
   auto check = check_idempotency(context, request, hash + upload.name + upload.file_name);

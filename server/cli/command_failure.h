@@ -21,7 +21,8 @@ class CommandFailure : public std::runtime_error {
   int exit_code_;
 };
 
-/// "<what>: <where>: <message>", with the exit code that belongs to the error's kind.
+/// "<what>: <where>: <message>: <what helps>", as far as each is known, with the exit code that belongs to the error's
+/// kind.
 [[noreturn]] void fail(const std::string& what, const Error& error);
 
 }  // namespace semblante

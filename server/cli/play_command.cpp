@@ -55,6 +55,7 @@ std::string reason_of(const client::HttpResponse& reply) {
   const JsonCursor root(json_view(*problem), report);
   text = root.text_or("detail", text.c_str());
   if (const auto pointer = root.text_or("pointer", ""); !pointer.empty()) text = pointer + ": " + text;
+  if (const auto advice = find_advice(root.text_or("advice", ""))) text.append(": ").append(text_of(*advice).words);
   return text;
 }
 

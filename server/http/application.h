@@ -17,7 +17,8 @@ struct BodyPlan {
   bool to_file = false;         ///< written to a temporary file while it arrives, instead of memory
   bool required = false;        ///< neither Content-Length nor chunked: 411
   bool immediate = false;       ///< handle() runs on the connection's strand, not on a worker: it must not block
-  std::shared_ptr<const void> held = nullptr;  ///< kept until the request has been answered
+  std::optional<Advice> if_too_large = std::nullopt;  ///< of the 413
+  std::shared_ptr<const void> held = nullptr;         ///< kept until the request has been answered
 };
 
 /// The interface that the network layer (net/) calls. One object serves all connections.

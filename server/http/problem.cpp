@@ -15,53 +15,54 @@ namespace {
 constexpr std::string_view problem_media_type = "application/problem+json";
 constexpr std::string_view end_of_document = "\n";
 
+constexpr std::nullopt_t none = std::nullopt;
 constexpr auto kinds = std::to_array<ProblemKind>({
-    {"malformed-request", 400, "The request cannot be read"},
-    {"invalid-argument", 400, "A value of the request is invalid"},
-    {"unauthorized", 401, "The request needs an accepted token"},
-    {"forbidden", 403, "The token does not allow this request"},
-    {"forbidden-origin", 403, "Pages from this origin may not use the server"},
-    {"not-found", 404, "There is no resource at this address"},
-    {"method-not-allowed", 405, "The resource does not have this method"},
-    {"not-acceptable", 406, "None of the accepted media types is available"},
-    {"request-timeout", 408, "The request did not arrive in time"},
-    {"conflict", 409, "The state of the resource does not allow this"},
-    {"length-required", 411, "The request must carry a body"},
-    {"precondition-failed", 412, "The resource is not in the state that was expected"},
-    {"content-too-large", 413, "The body is over the limit"},
-    {"unsupported-media-type", 415, "The body's media type is not supported"},
-    {"range-not-satisfiable", 416, "The range lies outside the content"},
-    {"expectation-failed", 417, "The server does not meet the expectation"},
-    {"foreign-host", 421, "The server does not accept this host name"},
-    {"malformed-model", 422, "The model file cannot be read"},
-    {"unsupported-model", 422, "The model file needs something that is not supported"},
-    {"empty-model", 422, "The model has nothing to work on"},
-    {"model-too-large", 422, "The model is over a documented limit"},
-    {"invalid-feature-point", 422, "A feature point has an impossible place"},
-    {"missing-feature-points", 422, "Feature points are missing"},
-    {"invalid-frame", 422, "A frame of the stream cannot be read"},
-    {"invalid-performance", 422, "The performance cannot be played"},
-    {"invalid-fap-file", 422, "The .fap file cannot be read"},
-    {"invalid-field", 422, "A field of the body is wrong"},
-    {"idempotency-key-reused", 422, "The idempotency key was used for another request"},
-    {"upgrade-required", 426, "The resource is a WebSocket"},
-    {"precondition-required", 428, "The request must have a precondition"},
-    {"too-many-requests", 429, "Too many requests or jobs are waiting"},
-    {"header-too-large", 431, "The header of the request is over the limit"},
-    {"worker-crashed", 500, "The worker of this job ended by a fault"},
-    {"worker-limit", 422, "The job exceeded a limit"},
-    {"cancelled", 409, "It was stopped on request"},
-    {"damaged-data", 500, "Stored bytes are missing or damaged"},
-    {"internal", 500, "A fault of the server"},
-    {"no-voice", 501, "No voice is installed"},
-    {"voice-failed", 502, "The voice cannot say this"},
-    {"overloaded", 503, "The server has reached its limit of connections"},
-    {"stopping", 503, "The server is stopping"},
-    {"storage-unavailable", 503, "The data folder cannot be read or written at the moment"},
-    {"http-version", 505, "Only HTTP/1.1 and HTTP/1.0 are supported"},
-    {"limit-exceeded", 507, "A documented limit on the number of things is reached"},
-    {"quota-exceeded", 507, "The token has used up a limit"},
-    {"insufficient-storage", 507, "The disk is full"},
+    {"malformed-request", 400, "The request cannot be read", none},
+    {"invalid-argument", 400, "A value of the request is invalid", none},
+    {"unauthorized", 401, "The request needs an accepted token", Advice::sign_in},
+    {"forbidden", 403, "The token does not allow this request", Advice::ask_for_token},
+    {"forbidden-origin", 403, "Pages from this origin may not use the server", none},
+    {"not-found", 404, "There is no resource at this address", none},
+    {"method-not-allowed", 405, "The resource does not have this method", none},
+    {"not-acceptable", 406, "None of the accepted media types is available", none},
+    {"request-timeout", 408, "The request did not arrive in time", none},
+    {"conflict", 409, "The state of the resource does not allow this", none},
+    {"length-required", 411, "The request must carry a body", none},
+    {"precondition-failed", 412, "The resource is not in the state that was expected", Advice::look_again},
+    {"content-too-large", 413, "The body is over the limit", none},
+    {"unsupported-media-type", 415, "The body's media type is not supported", none},
+    {"range-not-satisfiable", 416, "The range lies outside the content", none},
+    {"expectation-failed", 417, "The server does not meet the expectation", none},
+    {"foreign-host", 421, "The server does not accept this host name", none},
+    {"malformed-model", 422, "The model file cannot be read", Advice::export_again},
+    {"unsupported-model", 422, "The model file needs something that is not supported", Advice::export_as_glb},
+    {"empty-model", 422, "The model has nothing to work on", Advice::export_again},
+    {"model-too-large", 422, "The model is over a documented limit", Advice::reduce_model},
+    {"invalid-feature-point", 422, "A feature point has an impossible place", Advice::move_points},
+    {"missing-feature-points", 422, "Feature points are missing", Advice::mark_points},
+    {"invalid-frame", 422, "A frame of the stream cannot be read", none},
+    {"invalid-performance", 422, "The performance cannot be played", none},
+    {"invalid-fap-file", 422, "The .fap file cannot be read", none},
+    {"invalid-field", 422, "A field of the body is wrong", none},
+    {"idempotency-key-reused", 422, "The idempotency key was used for another request", none},
+    {"upgrade-required", 426, "The resource is a WebSocket", none},
+    {"precondition-required", 428, "The request must have a precondition", Advice::look_again},
+    {"too-many-requests", 429, "Too many requests or jobs are waiting", Advice::wait},
+    {"header-too-large", 431, "The header of the request is over the limit", none},
+    {"worker-crashed", 500, "The worker of this job ended by a fault", none},
+    {"worker-limit", 422, "The job exceeded a limit", Advice::reduce_model},
+    {"cancelled", 409, "It was stopped on request", none},
+    {"damaged-data", 500, "Stored bytes are missing or damaged", Advice::store_again},
+    {"internal", 500, "A fault of the server", none},
+    {"no-voice", 501, "No voice is installed", none},
+    {"voice-failed", 502, "The voice cannot say this", none},
+    {"overloaded", 503, "The server has reached its limit of connections", Advice::wait},
+    {"stopping", 503, "The server is stopping", Advice::wait},
+    {"storage-unavailable", 503, "The data folder cannot be read or written at the moment", Advice::wait},
+    {"http-version", 505, "Only HTTP/1.1 and HTTP/1.0 are supported", none},
+    {"limit-exceeded", 507, "A documented limit on the number of things is reached", Advice::delete_unused},
+    {"quota-exceeded", 507, "The token has used up a limit", none},
+    {"insufficient-storage", 507, "The disk is full", Advice::free_disk},
 });
 
 const ProblemKind& kind_of(std::string_view slug) {
@@ -108,6 +109,7 @@ nlohmann::ordered_json document(const Problem& problem) {
     auto& errors = json["errors"] = nlohmann::ordered_json::array();
     for (const auto& fault : problem.faults) errors.push_back({{"pointer", fault.pointer}, {"detail", fault.detail}});
   }
+  if (problem.advice) json["advice"] = text_of(*problem.advice).name;
   if (problem.limit)
     json["limit"] = {{"name", problem.limit->name}, {"value", problem.limit->value}, {"used", problem.limit->used}};
   return json;
@@ -119,13 +121,18 @@ std::vector<ProblemKind> problem_kinds() { return {kinds.begin(), kinds.end()}; 
 
 Problem make_problem(std::string_view slug, std::string detail, std::string pointer) {
   const auto& kind = kind_of(slug);
-  return {kind.status, std::string(kind.slug), std::string(kind.title), std::move(detail), std::move(pointer), {}};
+  Problem problem{kind.status,       std::string(kind.slug), std::string(kind.title),
+                  std::move(detail), std::move(pointer),     {}};
+  problem.advice = kind.advice;
+  return problem;
 }
 
 Problem problem_from(const Error& error) {
   // Every error at a feature point gets the problem of feature points.
   const bool about_point = error.where.rfind("/points", 0) == 0 && error.code != ErrorCode::missing;
-  return make_problem(about_point ? "invalid-feature-point" : slug_of(error.code), error.message, error.where);
+  auto problem = make_problem(about_point ? "invalid-feature-point" : slug_of(error.code), error.message, error.where);
+  if (error.advice) problem.advice = error.advice;
+  return problem;
 }
 
 std::string to_json(const Problem& problem) {
@@ -144,6 +151,7 @@ Problem problem_from_json(std::string_view text) {
   problem.status = static_cast<int>(root.has("status") ? root.member("status").integer(100, 599) : 500);
   problem.detail = root.text_or("detail", "");
   problem.pointer = root.text_or("pointer", "");
+  problem.advice = find_advice(root.text_or("advice", ""));
   for (std::size_t i = 0; i < root.size_of("errors"); ++i) {
     const JsonCursor fault = root.member("errors").element(i);
     problem.faults.push_back({fault.text_or("pointer", ""), fault.text_or("detail", "")});

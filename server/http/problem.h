@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/types/advice.h"
 #include "core/types/result.h"
 #include "server/http/message.h"
 
@@ -34,16 +35,17 @@ struct Problem {
   std::string pointer;        ///< the invalid field; may be empty
   std::vector<Fault> faults;  ///< all errors, when there is more than one
   std::optional<ReachedLimit> limit = std::nullopt;
+  std::optional<Advice> advice = std::nullopt;  ///< what helps, as far as it is known
 
   bool operator==(const Problem&) const = default;
 };
 inline bool operator==(const Fault& a, const Fault& b) { return a.pointer == b.pointer && a.detail == b.detail; }
 
-/// The problem with this stable slug; status and title come from the table of slugs (README.md). The slug must be
-/// known.
+/// The problem with this stable slug; status, title and what usually helps come from the table of slugs (README.md).
+/// The slug must be known.
 Problem make_problem(std::string_view slug, std::string detail, std::string pointer = {});
 
-/// The problem document for an error of the core; the code selects the slug.
+/// The problem document for an error of the core; the code selects the slug, and the advice if the error has none.
 Problem problem_from(const Error& error);
 
 /// The document as JSON text: stored with a failed job or model and shown inside them.
@@ -61,6 +63,7 @@ struct ProblemKind {
   std::string_view slug;
   int status;
   std::string_view title;
+  std::optional<Advice> advice;  ///< what usually helps
 };
 std::vector<ProblemKind> problem_kinds();
 

@@ -41,8 +41,10 @@ http::Problem BodySink::unwritten(int error_number) {
 }
 
 http::Problem BodySink::too_large(const http::BodyPlan& plan) {
-  return http::make_problem("content-too-large",
-                            "at most " + std::to_string(plan.max_bytes) + " bytes are accepted here");
+  auto problem =
+      http::make_problem("content-too-large", "at most " + std::to_string(plan.max_bytes) + " bytes are accepted here");
+  problem.advice = plan.if_too_large;
+  return problem;
 }
 
 }  // namespace semblante::net

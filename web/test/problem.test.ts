@@ -1,5 +1,7 @@
+import { readFileSync } from 'node:fs';
 import { afterEach, describe, expect, test, vi } from 'vitest';
 import { adviceFor, featurePointOf, fieldProblems, problemFrom, problemOf, titleOf, wordsOf } from '../src/net/problem.ts';
+import type { Problem } from '../src/net/types.ts';
 
 afterEach(() => {
   vi.unstubAllGlobals();
@@ -28,22 +30,40 @@ describe('problem documents', () => {
     expect(there.wordsOf({ type: 'about:blank', title: 'Bad Gateway', status: 502, detail: 'none' })).toBe('none');
   });
 
-  test('Advice_OfARefusedFile_IsGivenUnlessTheServerHasGivenIt', () => {
-    const unknown = { type: '/problems/unsupported-media-type', title: 'no', status: 415, detail: 'the file is none of GLB, VRM, glTF, OBJ, PLY, STL, ZIP' };
-    expect(adviceFor(unknown)).toContain('Blender');
-    for (const detail of [
-      'the format of the file is FBX, none of GLB, VRM, glTF, OBJ, PLY, STL, ZIP: export the head as GLB',
-      'the file is packed (RAR): send the model that is in it, or a zip',
-      'the file is a picture (JPEG), not a model',
-      'the file is a web page, not a model: download the model itself',
-      'the file is a pointer of Git LFS in place of the model: git lfs pull fetches the model',
-    ])
-      expect(adviceFor({ ...unknown, detail }), detail).toBeNull();
-    const full = { type: '/problems/insufficient-storage', title: 'no', status: 507 };
-    expect(adviceFor(full)).toContain('disk is full');
-    expect(adviceFor({ ...full, detail: 'the disk of the server is full: free some room and try again' })).toBeNull();
-    expect(adviceFor(refused)).toContain('Export the head again');
+  /** The names as the server has them, from their source. */
+  const named = [...readFileSync(new URL('../../core/types/advice.cpp', import.meta.url), 'utf8').matchAll(/\{Advice::\w+, "([a-z-]+)"/g)].map(([, name]) => name as Problem['advice'] & string);
+
+  test('Advice_OfEveryName_HasItsOwnWordsInEachLanguage', async () => {
+    expect(named.length).toBeGreaterThan(10);
+    const english = named.map((advice) => adviceFor({ ...refused, advice }));
+    vi.stubGlobal('navigator', { languages: ['pt-BR'] });
+    vi.resetModules();
+    const there = await import('../src/net/problem.ts');
+    const portuguese = named.map((advice) => there.adviceFor({ ...refused, advice }));
+    for (const words of [english, portuguese]) {
+      expect(words).not.toContain(null);
+      expect(new Set(words).size).toBe(named.length);
+    }
+    expect(portuguese.filter((words) => english.includes(words))).toEqual([]);
+  });
+
+  test('Advice_OfARefusedFile_IsWhatTheServerNames_WhateverItSays', () => {
+    const packed = { type: '/problems/unsupported-media-type', title: 'no', status: 415, detail: 'the file is packed (RAR): send it', advice: 'unpack' } as const;
+    expect(adviceFor(packed)).toContain('Unpack it');
+    expect(adviceFor({ ...packed, advice: 'export-as-glb' })).toContain('Blender');
+    expect(adviceFor({ ...refused, advice: 'reduce-model' })).toContain('Reduce the mesh');
+    expect(adviceFor({ ...refused, advice: 'of-a-newer-server' } as unknown as Problem)).toBeNull();
+  });
+
+  test('Advice_OfAStoredFaultOfAnEarlierVersion_IsWhatItsDetailSays', () => {
     expect(adviceFor({ ...refused, detail: "the zip has no model but 'inner.zip': send the model that is in it" })).toBeNull();
+    expect(adviceFor({ type: '/problems/limit-exceeded', title: 'no', status: 507, detail: 'the server has reached its limit of 9 models' })).toBeNull();
+  });
+
+  test('Advice_WithoutTheServersWord_IsThatOfTheStatus', () => {
+    const of = (status: number): string | null => adviceFor({ type: 'about:blank', title: 'x', status });
+    expect([of(0), of(404), of(413), of(503), of(429)].map((words) => words?.slice(0, 13))).toEqual(['Check that th', 'It may have b', 'Reduce the me', 'The server is', 'The server is']);
+    expect([of(502), of(-1), of(500)]).toEqual([null, null, null]);
   });
 
   test('ProblemFrom_ProblemJson_KeepsItsMembers', () => {

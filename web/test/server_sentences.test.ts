@@ -1,6 +1,6 @@
 import { readdirSync, readFileSync } from 'node:fs';
 import { expect, test } from 'vitest';
-import { portugueseSentence as translate, portugueseTables } from '../src/words/portuguese_sentences.ts';
+import { formerSentences, portugueseSentence as translate, portugueseTables } from '../src/words/portuguese_sentences.ts';
 
 const root = new URL('../../', import.meta.url);
 
@@ -237,6 +237,17 @@ test.each([
     'o token atingiu o seu limite de 3 cabeças, dos quais usou 3: apague cabeças deste token, ou peça mais a quem administra o servidor',
   ],
 ])('Sentences_%s_InPortuguese', (english, portuguese) => expect(translate(english)).toBe(portuguese));
+
+test.each([
+  ["the zip has no model but 'a.fbx': export the head as GLB", "o zip não tem modelo, mas 'a.fbx': exporte a cabeça como GLB"],
+  ["the zip has no model but 'a.zip': send the model that is in it", "o zip não tem modelo, mas 'a.zip': envie o modelo que há nele"],
+  ["refers to 'a.bin', which is another file; send a GLB, or a zip with all files", "cita 'a.bin', que é outro arquivo; envie um GLB, ou um zip com todos os arquivos"],
+])('Sentences_OfAnEarlierVersion_%s_InPortuguese', (english, portuguese) => expect(translate(english)).toBe(portuguese));
+
+test('Sentences_OfEarlierVersions_AreSaidNoLonger', () => {
+  const ends = Object.keys(formerSentences).map((english) => piecesOf(english).at(-1)!);
+  expect(ends.filter((end) => files.some((literals) => [...literals].some((text) => text.includes(end))))).toEqual([]);
+});
 
 test('Sentences_TextOfWhichTheTableLacksAPart_HasNoTranslation', () => {
   expect(translate('Something else')).toBeNull();

@@ -31,12 +31,15 @@ def _token(token: Optional[str]) -> Optional[str]:
 
 
 def _words(error: urllib.error.HTTPError) -> str:
-    """What a problem document says, else what the status means."""
+    """What a problem document says, with the name of what helps; else what the status means."""
     try:
-        detail = json.loads(error.read(_largest_problem))["detail"]
-    except (OSError, ValueError, LookupError, TypeError):
+        problem = json.loads(error.read(_largest_problem))
+        detail, advice = problem["detail"], problem.get("advice")
+    except (OSError, ValueError, LookupError, TypeError, AttributeError):
         return str(error.reason)
-    return detail if isinstance(detail, str) else str(error.reason)
+    if not isinstance(detail, str):
+        return str(error.reason)
+    return f"{detail} ({advice})" if isinstance(advice, str) else detail
 
 
 def fetch_head(server: str, model: str, *, lod: Optional[int] = None, max_vertices: Optional[int] = None,

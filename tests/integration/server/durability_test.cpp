@@ -43,6 +43,24 @@ TEST(Durability, Acknowledged_SurvivesKill) {
   }
 }
 
+TEST(Durability, FaultOfAnImport_KeepsItsAdvice) {
+  const TemporaryFolder folder;
+  json job, problem;
+  {
+    ServerProcess server(folder.path() / "data");
+    const auto made = json_of(request(server.port(), "POST", "/v1/models?filename=head.gltf",
+                                      R"({"asset":{"version":"2.0"},"extensionsRequired":["X_new"]})",
+                                      {{"Content-Type", "model/gltf+json"}}));
+    job = wait_for_job(server.port(), made["job"]["id"]);
+    problem = job["problem"];
+    EXPECT_EQ(problem.value("advice", ""), "export-as-glb") << problem;
+    EXPECT_EQ(server.end(SIGKILL), -SIGKILL);
+  }
+  ServerProcess server(folder.path() / "data");
+  EXPECT_EQ(json_of(request(server.port(), "GET", "/v1/jobs/" + job.value("id", "")))["problem"], problem);
+  EXPECT_EQ(json_of(request(server.port(), "GET", "/v1/models/" + job.value("model", "")))["problem"], problem);
+}
+
 TEST(Durability, ManyPuts_EachSurvivesItsKill) {
   const TemporaryFolder folder;
   std::string model;

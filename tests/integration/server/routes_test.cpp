@@ -26,6 +26,9 @@ class Routes : public SharedServer {
            SEMBLANTE_SOURCE_DIR "/server/voice/examples/beeps.py"});
   }
 
+  static void expect_advice(const Reply& reply, const std::string& advice) {
+    EXPECT_EQ(json_of(reply).value("advice", ""), advice) << reply.body;
+  }
   static void expect_problem(const Reply& reply, int status, const std::string& slug, const std::string& pointer = {}) {
     EXPECT_EQ(reply.status, status) << reply.body;
     EXPECT_EQ(reply.headers.contains("content-type") ? reply.headers.at("content-type") : "",
@@ -490,6 +493,34 @@ TEST_F(Routes, Uploads_OverTheLimitOrNoModel_AreRefused) {
       port(), "POST /v1/models HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n493e1\r\n" +
                   std::string(300'001, 'x') + "\r\n0\r\n\r\n"));
   expect_problem(chunked, 413, "content-too-large");
+}
+
+TEST_F(Routes, RefusedFiles_HaveWhatHelps) {
+  const Fields type = {{"Content-Type", "application/octet-stream"}};
+  const auto upload = [&](const std::string& bytes) { return request(port(), "POST", "/v1/models", bytes, type); };
+  expect_advice(upload("Kaydara FBX Binary  "), "export-as-glb");
+  expect_advice(upload(std::string(1000, '\x01')), "export-as-glb");
+  expect_advice(upload("Rar!\x1A\x07"), "unpack");
+  expect_advice(upload("\x89PNG\r\n"), "choose-model");
+  expect_advice(upload("<!DOCTYPE html>"), "download-model");
+  expect_advice(upload(std::string(300'001, 'x')), "reduce-model");
+  const std::string part = "--Q\r\nContent-Disposition: form-data; name=\"file\"\r\n\r\nv 0 0 0\r\n";
+  const Fields form = {{"Content-Type", "multipart/form-data; boundary=Q"}};
+  expect_advice(request(port(), "POST", "/v1/models", part + part + "--Q--\r\n", form), "send-all-files");
+  const auto model = import_grid(port());
+  const std::string expression = "--Q\r\nContent-Disposition: form-data; name=\"options\"\r\n\r\n{\"model\":\"" +
+                                 model +
+                                 "\"}\r\n--Q\r\nContent-Disposition: form-data; name=\"expression\"; "
+                                 "filename=\"a.7z\"\r\n\r\n7z\xBC\xAF\x27\x1C\r\n--Q--\r\n";
+  expect_advice(request(port(), "POST", "/v1/expressions", expression, form), "unpack");
+  expect_advice(request(port(), "PUT", "/v1/models/" + model + "/feature-points",
+                        R"({"points":{"2.1":{"vertex":99999}}})", json_type),
+                "move-points");
+  expect_advice(request(port(), "POST", "/v1/models/" + model + "/parametrizations", "{}", json_type), "mark-points");
+  // Nothing is known that helps: other bodies than models, and what detail tells.
+  expect_advice(request(port(), "POST", "/v1/models", "x", {{"Content-Type", "application/json"}}), "");
+  expect_advice(request(port(), "POST", "/v1/streams", std::string(2'000'000, ' '), json_type), "");
+  expect_advice(request(port(), "GET", "/v1/nothing"), "");
 }
 
 TEST_F(Routes, BrokenModels_FailTheirImportWithTheReason) {

@@ -51,7 +51,7 @@ async function mark(client: Client, model: string, head: Head): Promise<void> {
   const put = (points: Schemas['FeaturePointsBody']) =>
     client.PUT('/v1/models/{model}/feature-points', { params: { path }, body: points });
   const bad = refused(await put({ points: { '2.1': { vertex: 999_999_999 }, '99.1': { vertex: 1 } } }), 422);
-  assert.deepEqual([bad.type, bad.pointer], ['/problems/invalid-feature-point', '/points/2.1/vertex']);
+  assert.deepEqual([bad.type, bad.pointer, bad.advice], ['/problems/invalid-feature-point', '/points/2.1/vertex', 'move-points']);
   assert.deepEqual(bad.errors?.map((each) => each.pointer), ['/points/2.1/vertex', '/points/99.1']);
   good(await put({ points: some }));
 

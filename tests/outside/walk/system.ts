@@ -44,7 +44,7 @@ export async function walkFailedImport(client: Client): Promise<void> {
   const body = 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n';
   const made = good(await client.POST('/v1/models', { ...raw('model/obj'), body }));
   const job = await ended(client, made.job.id);
-  assert.deepEqual([job.state, job.problem?.type], ['failed', '/problems/malformed-model']);
+  assert.deepEqual([job.state, job.problem?.type, job.problem?.advice], ['failed', '/problems/malformed-model', 'export-again']);
   const params = { path: { model: made.model.id } };
   const model = good(await client.GET('/v1/models/{model}', { params }));
   assert.deepEqual([model.state, model.bounds, model.problem], ['failed', null, job.problem]);

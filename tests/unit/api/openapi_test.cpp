@@ -13,6 +13,7 @@
 
 #include "core/import/model_formats.h"
 #include "core/json/read_json.h"
+#include "core/types/advice.h"
 #include "server/api/documents.h"
 #include "server/api/routes.h"
 #include "server/http/media_type.h"
@@ -76,6 +77,12 @@ TEST(OpenApi, ModelFilesAmongPages_HaveTheTypesOfUploads) {
       EXPECT_EQ(served, file.media_type) << file.ending;
     }
   }
+}
+
+TEST(OpenApi, Advice_IsThatOfTheErrors) {
+  std::vector<std::string> names;
+  for (const auto& text : all_advice()) names.emplace_back(text.name);
+  EXPECT_EQ(document().at("components").at("schemas").at("Advice").at("enum").get<std::vector<std::string>>(), names);
 }
 
 TEST(OpenApi, NoObject_NamesAMemberTwice) {

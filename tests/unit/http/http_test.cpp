@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -166,6 +167,28 @@ TEST(Problem, Json_ComesBackAsItWas) {
   problem.faults = {{"/points/2.1/vertex", "vertex 9 is not there"}, {"/points/2.2", "neither"}};
   EXPECT_EQ(problem_from_json(to_json(problem)), problem);
   EXPECT_EQ(problem_from_json("no json").slug, "internal");
+}
+
+TEST(Problem, Advice_IsThatOfTheErrorOrElseOfItsKind) {
+  EXPECT_EQ(problem_from({ErrorCode::malformed, "line 3", "x"}).advice, Advice::export_again);
+  EXPECT_EQ(problem_from({ErrorCode::malformed, "", "x", Advice::unpack}).advice, Advice::unpack);
+  EXPECT_EQ(problem_from({ErrorCode::out_of_range, "/points/2.1", "x"}).advice, Advice::move_points);
+  EXPECT_EQ(problem_from({ErrorCode::internal, "", "x"}).advice, std::nullopt);
+  EXPECT_EQ(make_problem("conflict", "x").advice, std::nullopt);
+}
+
+TEST(Problem, Advice_IsAMemberOfItsName_AndEachComesBack) {
+  auto problem = make_problem("malformed-model", "x");
+  for (const auto& text : all_advice()) {
+    problem.advice = text.advice;
+    EXPECT_THAT(to_json(problem), ::testing::HasSubstr("\"advice\":\"" + std::string(text.name) + "\""));
+    EXPECT_EQ(problem_from_json(to_json(problem)), problem);
+    EXPECT_FALSE(text.words.empty());
+  }
+  problem.advice = std::nullopt;
+  EXPECT_EQ(to_json(problem).find("advice"), std::string::npos);
+  EXPECT_EQ(problem_from_json(to_json(problem)), problem) << "stored by an earlier version";
+  EXPECT_EQ(problem_from_json(R"({"title":"x","detail":"y","advice":"of-a-later-version"})").advice, std::nullopt);
 }
 
 TEST(Problem, ErrorAtAPoint_IsAboutThatPoint) {

@@ -82,13 +82,13 @@ TEST(AnyFormat, Detection_NeedsNoName_WhereTheBytesSpeak) {
   EXPECT_EQ(detect_format({}, "head.glb"), ModelFormat::glb);
 }
 
-TEST(AnyFormat, WhatPeopleSendInPlaceOfAModel_IsCalledByItsName_AndWithWhatToDo) {
+TEST(AnyFormat, WhatPeopleSendInPlaceOfAModel_IsCalledByItsName) {
   const auto words = [](std::string_view text, std::string_view name) {
     const auto format = format_of(to_bytes(text), name);
     return format ? std::string(to_string(*format)) : format.error().message;
   };
-  const std::string none_of = ", none of GLB, VRM, glTF, OBJ, PLY, STL, ZIP: export the head as GLB";
-  const std::string page = "the file is a web page, not a model: download the model itself";
+  const std::string none_of = ", none of GLB, VRM, glTF, OBJ, PLY, STL, ZIP";
+  const std::string page = "the file is a web page, not a model";
   EXPECT_EQ(words(std::string_view("Kaydara FBX Binary  \0\x1A", 22), "a.fbx"),
             "the format of the file is FBX" + none_of);
   EXPECT_EQ(words("; FBX 7.3.0 project file\nv 1\n", "a.fbx"), "the format of the file is FBX" + none_of);
@@ -96,16 +96,45 @@ TEST(AnyFormat, WhatPeopleSendInPlaceOfAModel_IsCalledByItsName_AndWithWhatToDo)
   EXPECT_EQ(words("\xEF\xBB\xBF<?xml version=\"1.0\"?>\n<COLLADA xmlns=\"x\">", ""),
             "the format of the file is COLLADA" + none_of);
   EXPECT_EQ(words(std::string_view("MM\x0A\0\0\0abcd", 10), "x"), "the format of the file is 3DS" + none_of);
-  EXPECT_EQ(words("Rar!\x1A\x07", "a.obj"), "the file is packed (RAR): send the model that is in it, or a zip");
+  EXPECT_EQ(words("Rar!\x1A\x07", "a.obj"), "the file is packed (RAR)");
   EXPECT_EQ(words("\x89PNG\r\n", "a.obj"), "the file is a picture (PNG), not a model");
   EXPECT_EQ(words("\n <!DOCTYPE html><title>404</title>", "head.glb"), page) << "a download that failed";
   EXPECT_EQ(words("version https://git-lfs.github.com/spec/v1\noid", "head.glb"),
-            "the file is a pointer of Git LFS in place of the model: git lfs pull fetches the model");
+            "the file is a pointer of Git LFS in place of the model");
   EXPECT_EQ(words("<html>", ""), page);
   EXPECT_EQ(words("MM is a name", "x"), "the file is none of GLB, VRM, glTF, OBJ, PLY, STL, ZIP")
       << "no 3DS by its size";
   EXPECT_EQ(words("# FBX to OBJ\nv 0 0 0\n", ""), "obj");
   for (const NamedFile& file : all_quads()) EXPECT_TRUE(format_of(file.bytes, file.name)) << file.name;
+}
+
+TEST(AnyFormat, WhatPeopleSendInPlaceOfAModel_HasWhatHelps) {
+  const auto advice = [](std::string_view text) {
+    const auto format = format_of(to_bytes(text), "head.glb.txt");
+    return format ? std::nullopt : format.error().advice;
+  };
+  EXPECT_EQ(advice("Kaydara FBX Binary  "), Advice::export_as_glb);
+  EXPECT_EQ(advice("<COLLADA xmlns=\"x\">"), Advice::export_as_glb);
+  EXPECT_EQ(advice("Rar!\x1A\x07"), Advice::unpack);
+  EXPECT_EQ(advice("\x89PNG\r\n"), Advice::choose_model);
+  EXPECT_EQ(advice("<!DOCTYPE html>"), Advice::download_model);
+  EXPECT_EQ(advice("version https://git-lfs.github.com/spec/v1\noid"), Advice::fetch_from_lfs);
+  EXPECT_EQ(advice("of no known format"), Advice::export_as_glb);
+  const auto too_large = import_model(to_bytes("v 0 0 0\n"), ModelFormat::obj, {.max_file_bytes = 4});
+  EXPECT_EQ(too_large.error().advice, Advice::reduce_model);
+}
+
+TEST(AnyFormat, GltfWithFilesBesideIt_AloneHasWhatHelps) {
+  const auto model =
+      import_model(to_bytes(R"({"asset": {"version": "2.0"}, "buffers": [{"uri": "a.bin", "byteLength": 4}],
+    "bufferViews": [{"buffer": 0, "byteLength": 4}], "accessors": [{"bufferView": 0, "componentType": 5126, "count": 1,
+    "type": "VEC3"}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}], "nodes": [{"mesh": 0}],
+    "scenes": [{"nodes": [0]}]})"),
+                   ModelFormat::gltf);
+  ASSERT_FALSE(model);
+  EXPECT_EQ(model.error().where, "/buffers/0/uri");
+  EXPECT_EQ(model.error().message, "refers to 'a.bin', which is another file");
+  EXPECT_EQ(model.error().advice, Advice::send_all_files);
 }
 
 /// A scan in the coordinates of a map.

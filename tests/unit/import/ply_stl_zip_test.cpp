@@ -324,11 +324,23 @@ TEST(Zip, WithoutAModel_NamesTheFileThatMayBeMeant) {
         .error()
         .message;
   };
-  EXPECT_EQ(words("source/Head.FBX"), "the zip has no model but 'source/Head.FBX': export the head as GLB");
-  EXPECT_EQ(words("head.usdc"), "the zip has no model but 'head.usdc': export the head as GLB") << "a .usdz file";
-  EXPECT_EQ(words("source/head.zip"), "the zip has no model but 'source/head.zip': send the model that is in it");
+  EXPECT_EQ(words("source/Head.FBX"), "the zip has no model but 'source/Head.FBX'");
+  EXPECT_EQ(words("head.usdc"), "the zip has no model but 'head.usdc'") << "a .usdz file";
+  EXPECT_EQ(words("source/head.zip"), "the zip has no model but 'source/head.zip'");
   EXPECT_EQ(words("b.txt"), "the zip has no .gltf, .glb, .vrm, .obj, .ply or .stl file");
   EXPECT_EQ(words("__MACOSX/._head.fbx"), "the zip has no .gltf, .glb, .vrm, .obj, .ply or .stl file");
+}
+
+TEST(Zip, WithoutOneModel_HasWhatHelps) {
+  const auto advice = [](const char* name, const char* other) {
+    return import_model(make_zip({{name, to_bytes("x")}, {other, to_bytes("y")}}), ModelFormat::gltf_zip)
+        .error()
+        .advice;
+  };
+  EXPECT_EQ(advice("a.txt", "source/Head.FBX"), Advice::export_as_glb);
+  EXPECT_EQ(advice("a.txt", "source/head.zip"), Advice::unpack);
+  EXPECT_EQ(advice("a.txt", "b.txt"), Advice::export_as_glb);
+  EXPECT_EQ(advice("a.ply", "b.ply"), Advice::send_one_model);
 }
 
 TEST(Zip, Obj_WithItsMaterialsAndImages_IsReadWhole) {

@@ -207,6 +207,7 @@ TEST(WorkerProtocol, ProgressAndProblem_ComeBackAsTheyWere) {
       std::get<http::Problem>(*worker_line_from_json(to_json_line(http::make_problem("worker-limit", "too long"))));
   EXPECT_EQ(problem.slug, "worker-limit");
   EXPECT_EQ(problem.detail, "too long");
+  EXPECT_EQ(problem.advice, Advice::reduce_model);
 }
 
 /// nlohmann's own conversion of these is undefined, and the program may do anything.

@@ -74,28 +74,43 @@ export function featurePointOf(pointer: string | undefined): string | null {
   return match ? match[1]! : null;
 }
 
-/** Sentences of the server that say themselves what helps, or that no program helps: core/import/foreign_file.cpp, zips, server/api/storage_problems.cpp. */
-const saysWhatHelps = /: (export|send|download|git lfs|free some room)\b|; send |, not a model$/;
+type Advice = NonNullable<Problem['advice']>;
 
-/** Advice for the user in one sentence, or null when there is none better than "try again". */
+/** What the server's advice means in the studio; core/types/advice.h has the kinds. */
+const adviceWords: Readonly<Record<Advice, string>> = {
+  'export-as-glb': t('Open it in the program that made it, or in Blender, and export it as GLB.'),
+  'export-again': t('Export the head again as {anyFormat}.', { anyFormat }),
+  unpack: t('Unpack it, and upload the model that is in it or a zip.'),
+  'choose-model': t('Choose the file of the model itself.'),
+  'download-model': t('Download the model itself, and upload that file.'),
+  'fetch-from-lfs': t('Fetch the model with “git lfs pull”, and upload it again.'),
+  'send-all-files': t('Upload a GLB, or a zip with all files of the model.'),
+  'send-one-model': t('Leave one model in it, and upload it again.'),
+  'reduce-model': t('Reduce the mesh or its textures and upload it again.'),
+  'mark-points': t('Mark the points that are missing, then try again.'),
+  'move-points': t('Move or remove the points marked in red, then save again.'),
+  'store-again': t('Upload the same file again, or parametrize the head again.'),
+  'free-disk': t("The server's disk is full: free some space on it, then try again."),
+  'delete-unused': t('Delete what is no longer needed, then try again.'),
+  wait: t('The server is busy: wait a moment and try again.'),
+  'look-again': t('Look at what has changed, then try again.'),
+  'sign-in': t('Sign in again.'),
+  'ask-for-token': t('Ask whoever runs the server for a token that allows it.'),
+};
+
+/**
+ * Advice for the user in one sentence, or null when there is none better than "try again". The server names it; what failed
+ * without its word (no answer, a proxy in front of it, a page that is out of date) is known by the status. Faults that earlier
+ * versions have stored name none: their details say what helps.
+ */
 export function adviceFor(problem: Problem): string | null {
-  const slug = slugOf(problem);
-  if (saysWhatHelps.test(problem.detail ?? '')) return null;
+  // A newer server may name advice that this page does not know.
+  if (problem.advice !== undefined) return (adviceWords as Readonly<Record<string, string>>)[problem.advice] ?? null;
   if (problem.status === 0) return t('Check that the server is running, then try again.');
-  if (slug === 'malformed-model') return t('Export the head again as {anyFormat}.', { anyFormat });
-  if (slug === 'unsupported-media-type') return t('Open it in the program that made it, or in Blender, and export it as GLB.');
-  if (slug === 'unauthorized') return t('Sign in again.');
-  if (slug === 'forbidden') return t('Ask whoever runs the server for a token that allows it.');
-  if (problem.status === 413 || slug === 'limit-exceeded')
-    return t('Reduce the mesh or its textures and upload it again.');
-  if (slug === 'quota-exceeded')
-    return t('Delete what is no longer needed, or ask whoever runs the server for a higher limit.');
-  if (slug === 'insufficient-storage') return t("The server's disk is full: free some space on it, then try again.");
-  if (problem.status === 412 || problem.status === 428)
-    return t('Look at what has changed, then try again.');
-  if (slug === 'invalid-feature-point') return t('Move or remove the points marked in red, then save again.');
   if (problem.status === 404) return t('It may have been deleted: reload the page.');
-  if (problem.status === 429 || problem.status === 503) return t('The server is busy: wait a moment and try again.');
+  if (problem.type !== 'about:blank') return null;
+  if (problem.status === 413) return adviceWords['reduce-model'];
+  if (problem.status === 429 || problem.status === 503) return adviceWords.wait;
   return null;
 }
 

@@ -35,8 +35,7 @@ export const portugueseGltfFaults: Sentences = {
   'is a data: URI that is not base64': 'é um URI data: que não está em base64',
   'is a data: URI that is too large': 'é um URI data: grande demais',
   'is a data: URI with a character that is not base64': 'é um URI data: com um caractere que não é de base64',
-  'refers to {name}, which is another file; send a GLB, or a zip with all files':
-    'cita {name}, que é outro arquivo; envie um GLB, ou um zip com todos os arquivos',
+  'refers to {name}, which is another file': 'cita {name}, que é outro arquivo',
 
   // Buffers and accessors.
   'has no uri, but only buffer 0 can be the binary chunk': 'não tem uri, mas só o buffer 0 pode ser o bloco binário',

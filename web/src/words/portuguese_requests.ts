@@ -15,7 +15,7 @@ export const portugueseRequests: Sentences = {
   'the answer here is {type}': 'a resposta aqui é {type}',
   '{type} is not accepted here; send the body with Content-Type: {types}': '{type} não é aceito aqui; envie o corpo com Content-Type: {types}',
   'bodies with Content-Encoding are not accepted: send the body as it is': 'corpos com Content-Encoding não são aceitos: envie o corpo como ele é',
-  'the form has two parts "file": send a zip of the model and its other files': 'o formulário tem duas partes "file": envie um zip do modelo com os seus outros arquivos',
+  'the form has two parts "file"': 'o formulário tem duas partes "file"',
   '{path} is no stream': '{path} não é um fluxo',
   'it must be a string': 'deve ser um texto',
   'it must be a number': 'deve ser um número',

@@ -24,5 +24,13 @@ export const portugueseTables: Readonly<Record<string, Sentences>> = {
   work: portugueseWork,
 };
 
+/** Sentences of earlier versions, as stored with heads whose import failed then. They say what helps; newer faults name it. */
+export const formerSentences: Sentences = {
+  'the zip has no model but {name}: export the head as GLB': 'o zip não tem modelo, mas {name}: exporte a cabeça como GLB',
+  'the zip has no model but {name}: send the model that is in it': 'o zip não tem modelo, mas {name}: envie o modelo que há nele',
+  'refers to {name}, which is another file; send a GLB, or a zip with all files':
+    'cita {name}, que é outro arquivo; envie um GLB, ou um zip com todos os arquivos',
+};
+
 /** A sentence of the server in Brazilian Portuguese; null: there is no translation. */
-export const portugueseSentence = sentenceTranslator(Object.assign({}, ...Object.values(portugueseTables)) as Sentences);
+export const portugueseSentence = sentenceTranslator(Object.assign({}, ...Object.values(portugueseTables), formerSentences) as Sentences);

@@ -59,8 +59,6 @@ export const portugueseStreamRequests: Sentences = {
   'the reason was not recorded': 'o motivo não foi registrado',
   'the content has {bytes} bytes': 'o conteúdo tem {bytes} bytes',
   'the ETag of the resource is {etag}': 'o ETag do recurso é {etag}',
-  '{fault}. Storing the same bytes again mends it: upload the same file, or parametrize the model again':
-    '{fault}. Guardar os mesmos bytes de novo conserta isto: envie o mesmo arquivo, ou parametrize a cabeça de novo',
   'the stored bytes with the SHA-256 {hash} are missing': 'faltam os bytes guardados com o SHA-256 {hash}',
   'the stored bytes with the SHA-256 {hash} are damaged': 'os bytes guardados com o SHA-256 {hash} estão danificados',
   '{fault}, but the change is not stored yet: it will be when the disk can be written; a restart before that undoes it':

@@ -1317,6 +1317,11 @@ export interface components {
                 level: "ok" | "warning" | "full";
             }[];
         };
+        /**
+         * @description What helps against a problem, for programs that tell their users in their own words. Files: export-as-glb (no reader has the format, or a part of it), export-again (it is damaged, or does not follow its format), unpack (the model is in an archive that is not read), choose-model (it is no model), download-model (it is a web page), fetch-from-lfs (it is a pointer of Git LFS), send-all-files (a GLB, or a zip with the other files), send-one-model (there are several), reduce-model (it is too large). Feature points: mark-points, move-points. Stored bytes: store-again (the same file, or the parametrization), free-disk, delete-unused. Requests: wait, look-again (the resource has changed), sign-in, ask-for-token. Later versions may have more
+         * @enum {unknown}
+         */
+        Advice: "export-as-glb" | "export-again" | "unpack" | "choose-model" | "download-model" | "fetch-from-lfs" | "send-all-files" | "send-one-model" | "reduce-model" | "mark-points" | "move-points" | "store-again" | "free-disk" | "delete-unused" | "wait" | "look-again" | "sign-in" | "ask-for-token";
         Problem: {
             /** @description /problems/<slug>, stable */
             type: string;
@@ -1329,6 +1334,8 @@ export interface components {
                 pointer: string;
                 detail: string;
             }[];
+            /** @description Absent where nothing is known to help, or detail says what depends on the case */
+            advice?: components["schemas"]["Advice"];
             /** @description The limit of a token that this request would exceed (GET /v1/usage) */
             limit?: {
                 name: string;
@@ -2371,7 +2378,8 @@ export interface components {
                  *       "title": "A feature point has an impossible place",
                  *       "status": 422,
                  *       "detail": "vertex 99999 is not there: the model has the vertices 0 to 26718",
-                 *       "pointer": "/points/2.1/vertex"
+                 *       "pointer": "/points/2.1/vertex",
+                 *       "advice": "move-points"
                  *     }
                  */
                 "application/problem+json": components["schemas"]["Problem"];

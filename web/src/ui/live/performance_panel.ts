@@ -207,7 +207,7 @@ export class PerformancePanel {
   private drawTrouble(refusal: Refusal | null): void {
     if (!refusal) return replace(this.trouble);
     const { problem, excerpt, holder } = refusal;
-    // The advice for 413 is about models that are too large, not about documents.
+    // A 413 that a proxy makes has the advice for models, not for documents.
     const advice = holder === null && problem.status !== 413 ? adviceFor(problem) : null;
     replace(
       this.trouble,
