@@ -2,7 +2,7 @@ import './ui/styles/index.css';
 import { neutralFrame } from '@client/index.ts';
 import { dracoDecoder } from './face/draco.ts';
 import { loadLibrary, loadRuntime } from './face/runtime.ts';
-import { loadStageFace } from './face/package.ts';
+import { loadStageFace, loadStillFace, type FaceSources } from './face/package.ts';
 import { Api } from './net/api.ts';
 import type { Session } from './net/types.ts';
 import { AnimatePanel } from './ui/animate/animate_panel.ts';
@@ -218,7 +218,10 @@ function main(root: HTMLElement, base: string, session: Session | null, theme: H
   showSelected(studio, points, scene);
   translateServer(studio, fit, scene);
   hideParts(canvas, scene, studio, hidden);
-  takeThumbnails(studio, scene, shelf, new ThumbnailStore());
+  takeThumbnails(studio, scene, shelf, new ThumbnailStore(), {
+    preview: (id, most) => api.smallPreview(id, most),
+    face: (id, level, most) => loadStillFace(faceSources(api), id, level, most),
+  });
   const shown = scene.state.watch(({ kind }) => {
     if (kind !== 'ready') return;
     queueMicrotask(() => shown());
@@ -236,13 +239,15 @@ function main(root: HTMLElement, base: string, session: Session | null, theme: H
   exposeInspection(scene, studio, driver, live, sound, microphone);
 }
 
+const faceSources = (api: Api): FaceSources => ({
+  base: api.base,
+  draco: dracoDecoder,
+  runtime: loadRuntime,
+  image: (sha256, signal) => api.content(sha256, signal),
+});
+
 function makeScene(canvas: HTMLCanvasElement, api: Api): SceneView {
-  const sources = {
-    base: api.base,
-    draco: dracoDecoder,
-    runtime: loadRuntime,
-    image: (sha256: string, signal: AbortSignal) => api.content(sha256, signal),
-  };
+  const sources = faceSources(api);
   return new SceneView(canvas, {
     preview: (model, signal) => api.preview(model.id, signal),
     face: (model, level, signal) => loadStageFace(sources, model.id, level, signal),

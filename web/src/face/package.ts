@@ -13,6 +13,24 @@ export interface FaceSources {
   image: (sha256: string, signal: AbortSignal) => Promise<Uint8Array>;
 }
 
+/** A face that stands still. */
+export interface StillFace {
+  rig: LoadedFace['rig'];
+  mesh: LoadedFace['mesh'];
+  materials: LoadedFace['materials'];
+}
+
+/** Fetches one level of detail to draw it, unless its images have more than `most` bytes: null. */
+export async function loadStillFace(sources: FaceSources, model: string, level: number, most: number): Promise<{ still: StillFace | null; imageBytes: number }> {
+  const { signal } = new AbortController();
+  const [draco, runtime] = await Promise.all([sources.draco(), sources.runtime()]);
+  const face = await loadFace(sources.base, model, { draco, runtime, level: { lod: level } });
+  const imageBytes = face.rig.images.reduce((sum, { bytes }) => sum + bytes, 0);
+  if (imageBytes > most) return { still: null, imageBytes: 0 };
+  const materials = await loadMaterials(face.rig, (sha256) => sources.image(sha256, signal));
+  return { still: { rig: face.rig, mesh: drawableMesh(face), materials }, imageBytes };
+}
+
 /**
  * Fetches one level of detail (0 is the full mesh) of a model's face package and prepares it for drawing and animation.
  * Throws when the parts of the package are inconsistent.

@@ -1,6 +1,6 @@
 import { streamUrl, type FaceFrame } from '@client/index.ts';
 import { decodeJson } from '@protocol/json_codec.ts';
-import { requestBlob, requestBytes, requestJson, type Answer } from './http.ts';
+import { requestBlob, requestBytes, requestBytesUpTo, requestJson, type Answer } from './http.ts';
 import { mediaTypeOf } from './model_formats.ts';
 import type {
   AbsentFap,
@@ -177,6 +177,11 @@ export class Api {
 
   preview(id: string, signal?: AbortSignal): Promise<Uint8Array> {
     return requestBytes(this.previewUrl(id), signal);
+  }
+
+  /** The same, unless it is large: see `requestBytesUpTo`. */
+  smallPreview(id: string, most: number): Promise<{ bytes: Uint8Array | null; read: number }> {
+    return requestBytesUpTo(this.previewUrl(id), most);
   }
 
   /** The artefact with this SHA-256, such as an image of a package. */

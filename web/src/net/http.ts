@@ -81,6 +81,27 @@ export async function requestBlob(path: string, options: RequestOptions = {}): P
   return (await send(path, options)).blob();
 }
 
+/** Bytes of which no more than `most` are read; null: there are more, `read` of which have come. */
+export async function requestBytesUpTo(path: string, most: number): Promise<{ bytes: Uint8Array | null; read: number }> {
+  const { headers, body } = await send(path, {});
+  const reader = body!.getReader();
+  const pieces: Uint8Array[] = [];
+  let read = 0;
+  let goesOn = Number(headers.get('Content-Length')) <= most;
+  while (goesOn) {
+    const { done, value } = await reader.read();
+    if (done) {
+      const bytes = new Uint8Array(await new Blob(pieces as BlobPart[]).arrayBuffer());
+      return { bytes, read };
+    }
+    pieces.push(value);
+    read += value.byteLength;
+    goesOn = read <= most;
+  }
+  await reader.cancel();
+  return { bytes: null, read };
+}
+
 export async function requestBytes(path: string, signal?: AbortSignal): Promise<Uint8Array> {
   const response = await send(path, signal ? { signal } : {});
   return new Uint8Array(await response.arrayBuffer());

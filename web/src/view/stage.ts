@@ -3,6 +3,7 @@ import {
   Color,
   DirectionalLight,
   HemisphereLight,
+  Light,
   NeutralToneMapping,
   PCFShadowMap,
   PerspectiveCamera,
@@ -17,7 +18,7 @@ import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { fieldOfView, studioLight } from '@client/gpu/studio_look.ts';
 import { fewerPixels, Pace } from '@client/view/pace.ts';
 import { Flight } from './flight.ts';
-import type { Box } from './head_box.ts';
+import { headOfPoints, type Box } from './head_box.ts';
 import type { Quality } from './quality.ts';
 import { drawRoom, loadRoom, smallRoom } from './room.ts';
 
@@ -43,6 +44,8 @@ const stillAfter = 0.25;
 const sameSide = Math.cos(0.6);
 /** From this distance on, in radii of the head, the face is smaller than half of the picture. */
 const farAway = 2 / Math.tan((fieldOfView * Math.PI) / 360);
+
+const boxFrom = ({ min, max }: Box): Box3 => new Box3(new Vector3(...min), new Vector3(...max));
 
 /** Half the size that a box needs in the picture; the depth counts less, since the head is seen from in front. */
 function radiusOf(box: Box3): number {
@@ -174,16 +177,20 @@ export class Stage {
   frameObject(object: Object3D, head: Box | null, view: ViewName): void {
     const whole = new Box3().setFromObject(object);
     if (whole.isEmpty()) return;
-    const box = head ? new Box3(new Vector3(...head.min), new Vector3(...head.max)) : whole;
-    box.getCenter(this.center);
-    this.radius = radiusOf(box);
+    this.aim(head ? boxFrom(head) : whole);
     const reach = radiusOf(whole);
     this.camera.near = this.radius / 50;
     this.camera.far = reach * 60;
     this.controls.minDistance = this.radius * 0.3;
     this.controls.maxDistance = reach * 14;
-    this.placeLights();
     this.look(view, true);
+  }
+
+  /** Fits the middle and the lights to a box. */
+  private aim(box: Box3): void {
+    box.getCenter(this.center);
+    this.radius = radiusOf(box);
+    this.placeLights();
   }
 
   /** What is framed: the height of its middle, and half its size, model units. */
@@ -192,13 +199,10 @@ export class Stage {
   }
 
   /** From now on shows this part of the framed object as the head. */
-  frameHead({ min, max }: Box, view: ViewName): void {
-    const box = new Box3(new Vector3(...min), new Vector3(...max));
-    box.getCenter(this.center);
-    this.radius = radiusOf(box);
+  frameHead(head: Box, view: ViewName): void {
+    this.aim(boxFrom(head));
     this.camera.near = this.radius / 50;
     this.controls.minDistance = this.radius * 0.3;
-    this.placeLights();
     this.look(view);
   }
 
@@ -360,6 +364,8 @@ export class Stage {
     const side = Math.min(size, from.width, from.height);
     const front = camera.clone();
     front.aspect = 1;
+    front.near = this.radius / 50;
+    front.far = this.radius * 60;
     front.updateProjectionMatrix();
     front.position.copy(this.center).add(new Vector3(0, 0, (this.radius * 1.06) / Math.tan((camera.fov * Math.PI) / 360)));
     front.lookAt(this.center);
@@ -373,6 +379,25 @@ export class Stage {
     to.width = to.height = size;
     to.getContext('2d')?.drawImage(from, 0, from.height - side, side, side, 0, 0, size, size);
     return to.toDataURL('image/webp', 0.8);
+  }
+
+  /** The same of an object that is not on the stage; `head`: the part of it that is the head, `points`: its feature points. */
+  portrait(object: Object3D, { head, points }: { head: Box | null; points: readonly (readonly [number, number, number])[] }, size: number): string {
+    const hidden = this.scene.children.filter((child) => child.visible && !(child instanceof Light));
+    const middle = this.center.clone();
+    const { radius } = this;
+    for (const child of hidden) child.visible = false;
+    this.scene.add(object);
+    this.aim(head ? boxFrom(head) : new Box3().setFromObject(object));
+    const told = headOfPoints(points, this.framed);
+    if (told) this.aim(boxFrom(told));
+    const image = this.thumbnail(size);
+    this.center.copy(middle);
+    this.radius = radius;
+    this.placeLights();
+    object.removeFromParent();
+    for (const child of hidden) child.visible = true;
+    return image;
   }
 
   /** Draws the surroundings that light the head, once per graphics context. */

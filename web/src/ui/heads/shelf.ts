@@ -127,6 +127,12 @@ export class Shelf {
     this.uploads = uploads;
   }
 
+  /** The heads whose items are seen, from the top. */
+  seen(): Model[] {
+    const ids = [...this.list.querySelectorAll('[data-model]')].filter(isSeen).map((item) => item.getAttribute('data-model'));
+    return this.studio.models.value.filter(({ id }) => ids.includes(id));
+  }
+
   draw(): void {
     const { studio } = this;
     const state = studio.shelf.value;

@@ -1,5 +1,6 @@
 import { Vector3 } from 'three';
 import type { LoadedFace } from '../../face/loaded_face.ts';
+import type { StillFace } from '../../face/package.ts';
 import { pickVertex } from '../../face/ray_pick.ts';
 import { Performer } from '../../face/performer.ts';
 import type { Model } from '../../net/types.ts';
@@ -270,6 +271,29 @@ export class SceneView {
     preview?.hide(hidden);
     this.show(this.wanted);
     return image;
+  }
+
+  /** The same of a head that is not on the stage, of its face or still model. Resolves with what draws it, in a frame hook. */
+  async portraitOf(model: Model, still: StillFace | Uint8Array, size: number): Promise<() => string> {
+    if (still instanceof Uint8Array) {
+      const preview = await PreviewView.load(still, this.quality.richSkin);
+      const head = preview.head((part) => model.parts.find(({ index }) => index === part)?.role ?? null);
+      return () => {
+        const image = this.stage.portrait(preview.object, { head, points: [] }, size);
+        preview.dispose();
+        return image;
+      };
+    }
+    const { mesh, rig } = still;
+    const view = new FaceView(mesh, await makeMaterials(still.materials, this.quality.richSkin));
+    view.usePath('wasm'); // at rest, without a pose
+    const framing = { head: framedHead([{ positions: mesh.positions, triangles: mesh.indices }]), points: rig.feature_points.map(({ position }) => position) };
+    return () => {
+      const image = this.stage.portrait(view.object, framing, size);
+      view.dispose();
+      disposeMaterials(view.materials);
+      return image;
+    };
   }
 
   private pose(face: FaceView, performer: Performer): void {
