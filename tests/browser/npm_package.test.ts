@@ -1,7 +1,9 @@
 import { execFile, execFileSync } from 'node:child_process';
-import { cpSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, statSync, symlinkSync, writeFileSync } from 'node:fs';
+import { cpSync, existsSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, statSync, symlinkSync, writeFileSync } from 'node:fs';
+import { createServer as createHttpServer } from 'node:http';
+import type { AddressInfo } from 'node:net';
 import { tmpdir } from 'node:os';
-import { join } from 'node:path';
+import { extname, join } from 'node:path';
 import { promisify } from 'node:util';
 import type { Page } from 'playwright-core';
 import { build as bundle } from 'esbuild';
@@ -452,17 +454,53 @@ document.addEventListener('statechange', ({ target, detail }) => detail.state ==
   });
 });
 
+/** A stranger's server of the project: its pages have no Content-Security-Policy, as those of `server` have. */
+async function stranger(): Promise<{ url: string; stop: () => Promise<void> }> {
+  const types: Record<string, string> = { '.html': 'text/html', '.js': 'text/javascript', '.wasm': 'application/wasm' };
+  const pages = createHttpServer(({ url }, answer) => {
+    const file = join(project, new URL(url!, 'http://localhost').pathname);
+    const type = types[extname(file)];
+    if (type === undefined || !existsSync(file)) return void answer.writeHead(404).end();
+    answer.writeHead(200, { 'Content-Type': type }).end(readFileSync(file));
+  });
+  await new Promise<void>((listening) => pages.listen(0, '127.0.0.1', listening));
+  return { url: `http://127.0.0.1:${(pages.address() as AddressInfo).port}`, stop: () => new Promise((stopped) => void pages.close(() => stopped())) };
+}
+
 test('Package_PageOfAnotherOrigin_SaysInTheConsoleHowItIsAllowed', async () => {
   const face = `<semblante-face src="${server.url}" stream="demo"></semblante-face>`;
   writeFileSync(join(project, 'foreign.html'), `<!doctype html>${face}<script type="module" src="node_modules/semblante/dist/element.js"></script>`);
-  const other = await startServer({ pages: project, demo: false });
+  const other = await stranger();
+  const page = await browser.newPage();
   try {
-    const page = await browser.newPage();
     const isHint = (text: string): boolean => text.endsWith(`semblante serve --allow-origin ${other.url}`);
     const hint = page.waitForEvent('console', { predicate: (message) => isHint(message.text()), timeout: patience });
     await page.goto(`${other.url}/foreign.html`, { timeout: patience });
     expect((await hint).type()).toBe('warning');
   } finally {
+    await page.close();
+    await other.stop();
+  }
+});
+
+test('Package_ServerThatThePagesPolicyForbids_IsToldFromOneThatDoesNotAnswer', async () => {
+  writeFileSync(join(project, 'trouble.js'), "document.querySelector('semblante-face').addEventListener('error', ({ detail }) => (globalThis.code ??= detail.code));");
+  const pageOf = (src: string, policy: string): string =>
+    `<!doctype html>${policy && `<meta http-equiv="Content-Security-Policy" content="connect-src ${policy}">`}<semblante-face src="${src}" stream="demo"></semblante-face>
+<script src="trouble.js"></script><script type="module" src="node_modules/semblante/dist/element.js"></script>`;
+  const other = await stranger();
+  const page = await browser.newPage();
+  const codeOn = async (src: string, policy: string): Promise<unknown> => {
+    writeFileSync(join(project, 'trouble.html'), pageOf(src, policy));
+    await page.goto(`${other.url}/trouble.html`, { timeout: patience });
+    return (await page.waitForFunction(() => (globalThis as { code?: string }).code, undefined, { timeout: patience })).jsonValue();
+  };
+  try {
+    expect(await codeOn(server.url, "'self'")).toBe('policy');
+    expect(await codeOn(server.url, '')).toBe('unreachable'); // it refuses this origin
+    expect(await codeOn(other.url, server.url)).toBe('policy');
+  } finally {
+    await page.close();
     await other.stop();
   }
 });

@@ -24,6 +24,7 @@ export const portuguese: ViewWords = {
       private: () => 'Este fluxo é privado. Abra-o com o link do seu convite.',
       unreachable: () => 'O servidor não responde. Nova tentativa em andamento.',
       library: () => 'Esta página não conseguiu carregar a sua parte que desenha rostos. Nova tentativa em andamento.',
+      policy: (name) => `As regras desta página proíbem que ela carregue de ${name}.`,
       server: () => 'O servidor está com um problema. Nova tentativa em andamento.',
       damaged: () => 'Não foi possível carregar este rosto: os arquivos não combinam entre si.',
       'no-webgl': () => 'Este navegador não tem WebGL 2, necessário para desenhar um rosto. Ative a aceleração de hardware ou use outro navegador.',

@@ -84,14 +84,40 @@ function hintLibrary(fault: unknown): void {
   hintOnce(fault instanceof Error ? fault.message : String(fault));
 }
 
+/** Where the page's Content-Security-Policy has refused a request to. */
+const refusedOrigins = new Set<string>();
+let isWatched = false;
+
+function watchPolicy(): void {
+  if (isWatched || typeof document === 'undefined') return;
+  isWatched = true;
+  document.addEventListener('securitypolicyviolation', ({ blockedURI, disposition, effectiveDirective }) => {
+    if (disposition !== 'enforce' || effectiveDirective !== 'connect-src' || !blockedURI.startsWith('http')) return;
+    refusedOrigins.add(new URL(blockedURI).origin);
+  });
+}
+
+/** What a request without an answer has met: the page's own policy, or nothing. `addresses`: where it may have gone. */
+async function troubleWithoutAnswer(addresses: readonly string[]): Promise<FaceTrouble> {
+  await new Promise((wake) => setTimeout(wake)); // the browser tells of its policy in a task of its own
+  const refused = refusedOrigins.size > 0 && addresses.map((address) => new URL(address, location.href).origin).find((origin) => refusedOrigins.has(origin));
+  if (!refused) return trouble('unreachable');
+  hintOnce(`the page's Content-Security-Policy needs ${refused} in connect-src`);
+  return trouble('policy', refused);
+}
+
 /** The id of the model that a stream shows. Throws FaceTrouble. */
 export async function modelOf(source: Source, signal: AbortSignal): Promise<string> {
+  watchPolicy();
   const address = `${source.base}/v1/streams/${encodeURIComponent(source.stream)}`;
   const response = await requestOf(source)(address, { signal }).catch((error: unknown) => {
     if (signal.aborted) throw error;
-    hintOrigin(source.base);
-    throw trouble('unreachable');
+    return troubleWithoutAnswer([source.base]);
   });
+  if (response instanceof FaceTrouble) {
+    if (response.code === 'unreachable') hintOrigin(source.base);
+    throw response;
+  }
   if (!response.ok) throw troubleOf(response.status, 'no-stream', shown(source.stream));
   const { model } = (await response.json().catch(() => ({}))) as { model?: unknown };
   if (source.model !== null) return source.model;
@@ -142,6 +168,7 @@ async function loadFaceOf(
   images: Images,
   signal: AbortSignal,
 ): Promise<Face> {
+  watchPolicy();
   const request = requestOf(source);
   const tapped: typeof fetch = (address, init) => {
     const response = request(address, init);
@@ -154,7 +181,9 @@ async function loadFaceOf(
     if (signal.aborted) throw error;
     if (error instanceof FaceError && error.code === 'http') throw troubleOf(error.status ?? 0, 'model-unready', '');
     if (error instanceof FaceError || error instanceof ProtocolError) throw trouble('damaged');
-    if (error instanceof TypeError || error instanceof DOMException) throw trouble('unreachable'); // what a fetch without an answer throws
+    // What a fetch without an answer throws, of the server or of the library's files.
+    if (error instanceof TypeError || error instanceof DOMException)
+      throw await troubleWithoutAnswer([source.base, import.meta.url]);
     hintLibrary(error);
     throw trouble('library');
   }

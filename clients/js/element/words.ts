@@ -7,6 +7,7 @@ export type Trouble =
   | 'private'
   | 'unreachable'
   | 'library'
+  | 'policy'
   | 'server'
   | 'damaged'
   | 'no-webgl'
@@ -53,6 +54,7 @@ export const faceWords: FaceWords = {
     private: () => 'This stream is private. Open it with the link of your invitation.',
     unreachable: () => 'The server cannot be reached. Trying again.',
     library: () => 'This page could not load the part of it that draws faces. Trying again.',
+    policy: (name) => `The rules of this page forbid it to load from ${name}.`,
     server: () => 'The server has a problem. Trying again.',
     damaged: () => 'This face could not be loaded: its files do not fit together.',
     'no-webgl': () => 'This browser has no WebGL 2, which drawing a face needs. Turn on hardware acceleration, or use another browser.',
@@ -61,7 +63,7 @@ export const faceWords: FaceWords = {
   },
 };
 
-const lasting: ReadonlySet<Trouble> = new Set<Trouble>(['address', 'no-webgl', 'private', 'damaged']);
+const lasting: ReadonlySet<Trouble> = new Set<Trouble>(['address', 'no-webgl', 'private', 'damaged', 'policy']);
 
 /** Whether it can pass by itself, so that waiting helps. */
 export const isPassing = (code: Trouble): boolean => !lasting.has(code);

@@ -228,6 +228,29 @@ test('faceOf_AFileThatTheBundlerLeftBehind_IsNotAServerThatCannotBeReached', asy
   warn.mockRestore();
 });
 
+test('modelOf_WhatThePagesPolicyRefuses_IsNotAServerThatCannotBeReached', async () => {
+  const warn = vi.spyOn(console, 'warn').mockImplementation(() => undefined);
+  vi.stubGlobal('fetch', () => Promise.reject(new TypeError('Failed to fetch')));
+  let tell: (event: object) => void = () => undefined;
+  vi.stubGlobal('document', { addEventListener: (_: string, listener: typeof tell) => (tell = listener) });
+  vi.stubGlobal('location', new URL('https://page.example/'));
+  vi.resetModules(); // without what other tests have watched
+  const fresh = await import('../../../../clients/js/element/loader.ts');
+  const code = async (): Promise<unknown> =>
+    ((await fresh.modelOf({ ...source, base: 'https://faces.example', model: null }, new AbortController().signal).catch((error: unknown) => error)) as FaceTrouble).code;
+  expect(await code()).toBe('unreachable');
+  const violation = { blockedURI: 'https://faces.example/v1/streams/a', disposition: 'enforce', effectiveDirective: 'connect-src' };
+  for (const other of [{ ...violation, disposition: 'report' }, { ...violation, effectiveDirective: 'img-src' }, { ...violation, blockedURI: 'https://other.example/' }, { ...violation, blockedURI: 'inline' }]) {
+    tell(other);
+    expect(await code()).toBe('unreachable');
+  }
+  tell(violation);
+  expect(await code()).toBe('policy');
+  expect(isPassing('policy')).toBe(false);
+  expect(warn).toHaveBeenLastCalledWith(expect.stringContaining('needs https://faces.example in connect-src'));
+  warn.mockRestore();
+});
+
 afterEach(() => {
   vi.unstubAllGlobals();
 });
