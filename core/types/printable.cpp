@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <cstdio>
 
 namespace semblante {
@@ -16,6 +17,25 @@ bool is_control(std::string_view character) {
   if (character.size() == 2) return character < "\xC2\xA0";
   return (character >= "\xE2\x80\xA8" && character <= "\xE2\x80\xAE") ||  // U+2028 to U+202E
          (character >= "\xE2\x81\xA6" && character <= "\xE2\x81\xA9");    // U+2066 to U+2069
+}
+
+/// Blanks, and Unicode's characters without a shape of their own (Default_Ignorable_Code_Point), in order.
+struct Range {
+  std::uint32_t first, last;
+};
+constexpr auto unseen = std::to_array<Range>(
+    {{0x20, 0x20},     {0xA0, 0xA0},       {0xAD, 0xAD},       {0x34F, 0x34F},    {0x61C, 0x61C},   {0x115F, 0x1160},
+     {0x1680, 0x1680}, {0x17B4, 0x17B5},   {0x180B, 0x180F},   {0x2000, 0x200F},  {0x2028, 0x202F}, {0x205F, 0x206F},
+     {0x2800, 0x2800}, {0x3000, 0x3000},   {0x3164, 0x3164},   {0xFE00, 0xFE0F},  {0xFEFF, 0xFEFF}, {0xFFA0, 0xFFA0},
+     {0xFFF0, 0xFFF8}, {0x1BCA0, 0x1BCA3}, {0x1D173, 0x1D17A}, {0xE0000, 0xE0FFF}});
+
+/// The number of a character of valid UTF-8.
+std::uint32_t code_point(std::string_view character) {
+  const auto first = static_cast<unsigned char>(character[0]);
+  if (character.size() == 1) return first;
+  std::uint32_t number = first & (0xFFU >> (character.size() + 1));
+  for (const char byte : character.substr(1)) number = number << 6U | (static_cast<unsigned char>(byte) & 0x3FU);
+  return number;
 }
 
 }  // namespace
@@ -55,6 +75,16 @@ bool has_controls(std::string_view text) {
   for (; !text.empty(); text.remove_prefix(utf8_step(text)))
     if (is_control(text.substr(0, utf8_step(text)))) return true;
   return false;
+}
+
+bool is_blank(std::string_view text) {
+  for (; !text.empty(); text.remove_prefix(utf8_step(text))) {
+    const std::uint32_t number = code_point(text.substr(0, utf8_step(text)));
+    const auto* range =
+        std::find_if(unseen.begin(), unseen.end(), [number](const Range& one) { return number <= one.last; });
+    if (range == unseen.end() || number < range->first) return false;
+  }
+  return true;
 }
 
 std::string printable(std::string_view name) {

@@ -19,6 +19,9 @@ std::size_t utf8_end(std::string_view text);
 /// text.
 bool has_controls(std::string_view text);
 
+/// Whether nothing of valid UTF-8 is seen: it is empty, or of blanks and characters that have no width.
+bool is_blank(std::string_view text);
+
 /// Makes an untrusted name safe for output: valid UTF-8, at most 200 bytes. Other bytes become '?', and so does
 /// what has_controls() looks for.
 std::string printable(std::string_view name);

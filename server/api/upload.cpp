@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/import/import.h"
+#include "core/types/printable.h"
 #include "protocol/hash/sha256.h"
 #include "server/api/common.h"
 #include "server/api/generated/handlers.h"
@@ -61,7 +62,7 @@ Upload take_upload(const http::Request& request) {
   if (const auto name = request.query_value("filename")) upload.file_name = clean_file_name(*name);
   if (const auto name = request.query_value("name")) upload.name = checked_text(*name, max_name_bytes, "?name");
   if (upload.name.empty()) upload.name = std::filesystem::path(upload.file_name).stem().string();
-  if (upload.name.empty()) upload.name = "Untitled";
+  if (is_blank(upload.name)) upload.name = "Untitled";
   return upload;
 }
 

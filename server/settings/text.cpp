@@ -7,7 +7,7 @@
 namespace semblante::settings {
 
 Status check_text(std::string_view text, std::size_t max_bytes) {
-  if (text.find_first_not_of(' ') == std::string_view::npos) return Error{ErrorCode::empty, "", "it must not be empty"};
+  if (is_blank(text)) return Error{ErrorCode::empty, "", "it must not be empty"};
   if (text.size() > max_bytes)
     return Error{ErrorCode::too_large, "", "it has more than " + std::to_string(max_bytes) + " bytes"};
   if (has_controls(text)) return Error{ErrorCode::malformed, "", "it holds a control character"};

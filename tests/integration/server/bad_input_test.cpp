@@ -214,6 +214,12 @@ TEST_F(BadInput, NamesOfUploads_AreWholeCharacters_AndNeverBlank) {
   ASSERT_EQ(turned.status, 202) << turned.body;
   EXPECT_EQ(json_of(turned)["model"]["name"], "ab");
   EXPECT_EQ(request(port(), "POST", "/v1/models?filename=a.obj&name=%20%20", grid_obj(4), type).status, 422);
+  // U+200B and U+2060 have no width.
+  EXPECT_EQ(request(port(), "POST", "/v1/models?filename=a.obj&name=%E2%80%8B%E2%81%A0", grid_obj(4), type).status,
+            422);
+  const auto unseen = request(port(), "POST", "/v1/models?filename=%E2%80%8B.obj", grid_obj(4), type);
+  ASSERT_EQ(unseen.status, 202) << unseen.body;
+  EXPECT_EQ(json_of(unseen)["model"]["name"], "Untitled");
 }
 
 TEST_F(BadInput, FormWithTwoFiles_IsRefused_NotHalfOfItTaken) {

@@ -17,6 +17,16 @@ TEST(Printable, CharactersThatActOnTheText_BecomeQuestionMarks) {
     EXPECT_EQ(printable(std::string("a") + text + "b"), "a?b");
 }
 
+TEST(Blank, IsWhatHasNothingToSee) {
+  for (const char* text :
+       {"", " ", "\u00A0", "\u200B", "\u200D\u200C", " \u2060\uFEFF ", "\u3000", "\u3164", "\uFE0F", "\U000E0020"})
+    EXPECT_TRUE(is_blank(text)) << text;
+  // Joiners and selectors within what is seen: scripts of Iran and India, and families of emoji, need them.
+  for (const char* text : {"a", "\u200Ba", "\u0645\u06CC\u200C\u062E", "\u2764\uFE0F", "\U0001F468\u200D\U0001F469",
+                           "\u00E9", "\u2010", "\xff"})
+    EXPECT_FALSE(is_blank(text)) << text;
+}
+
 TEST(Printable, BytesThatAreNoUtf8_BecomeQuestionMarks) {
   EXPECT_EQ(printable("a\xff"
                       "b\xc2"),

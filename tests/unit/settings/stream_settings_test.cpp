@@ -67,7 +67,8 @@ TEST(StreamSettings, WhatIsWrong_IsNamed) {
   };
   for (const char* name : {"title", "model"}) {
     expect_wrong(name, 5, "must be a string");
-    expect_wrong(name, "", "must not be empty");
+    for (const char* text : {"", " ", "\u200B", "\u200D \u2060", "\uFEFF"})
+      expect_wrong(name, text, "must not be empty");
     for (const char* text : {"a\nb", "a\u0085b", "a\u2028b", "a\u202Eb", "a\u2066b"})
       expect_wrong(name, text, "control character");
     expect_wrong(name, std::string(201, 'a'), "more than");
