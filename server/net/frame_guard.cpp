@@ -10,6 +10,8 @@ namespace {
 constexpr unsigned final_bit = 0x80, opcode_bits = 0x0F, control_bit = 0x08, opcode_of_close = 0x08;
 constexpr unsigned mask_bit = 0x80, length_bits = 0x7F, two_byte_length = 126, eight_byte_length = 127;
 constexpr std::size_t fixed_bytes = 2, mask_bytes = 4;
+// Sections 7.4.1 and 7.4.2: the codes that there can be end before this one.
+constexpr unsigned end_of_codes = 5000;
 
 std::size_t bytes_of_length(unsigned length) {
   return length == two_byte_length ? 2 : length == eight_byte_length ? 8 : 0;
@@ -17,21 +19,24 @@ std::size_t bytes_of_length(unsigned length) {
 
 }  // namespace
 
-std::optional<std::string_view> FrameGuard::look(std::string_view bytes, Clock::time_point now) {
+std::optional<FrameGuard::Fault> FrameGuard::look(std::string_view bytes, Clock::time_point now) {
   if (over_ || bytes.empty()) return std::nullopt;
-  auto words = look_at_frames(bytes, now);
-  if (!words && begin_ && now > *begin_ + limits_.body_time(bytes_)) words = "sends a message too slowly";
-  over_ = words.has_value();
-  return words;
+  auto fault = look_at_frames(bytes, now);
+  if (!fault && begin_ && now > *begin_ + limits_.body_time(bytes_))
+    fault = Fault{"sends a message too slowly", policy_violation};
+  over_ = fault.has_value();
+  return fault;
 }
 
-std::optional<std::string_view> FrameGuard::look_at_frames(std::string_view bytes, Clock::time_point now) {
+std::optional<FrameGuard::Fault> FrameGuard::look_at_frames(std::string_view bytes, Clock::time_point now) {
   while (!bytes.empty()) {
     if (!begin_) begin_ = now, bytes_ = 0;
     const auto passed =
         payload_left_ > 0 ? static_cast<std::size_t>(std::min<std::uint64_t>(payload_left_, bytes.size())) : 1;
     if (payload_left_ > 0) {
       payload_left_ -= passed;
+      if (takes_wrong_code(bytes.substr(0, passed)))
+        return Fault{"closes with a code that there is not", protocol_error};
     } else {
       header_[header_size_++] = static_cast<unsigned char>(bytes.front());
     }
@@ -39,8 +44,9 @@ std::optional<std::string_view> FrameGuard::look_at_frames(std::string_view byte
     bytes_ += passed;
     if (header_size_ >= fixed_bytes && header_size_ >= header_bytes()) {
       payload_left_ = payload_bytes();
+      expect_code();
       header_size_ = 0;
-      if (const auto words = count_frame(now)) return words;
+      if (const auto fault = count_frame(now)) return fault;
     }
     if (header_size_ == 0 && payload_left_ == 0 && ends_message_) begin_.reset();
   }
@@ -60,21 +66,39 @@ std::uint64_t FrameGuard::payload_bytes() const {
   return value;
 }
 
-std::optional<std::string_view> FrameGuard::count_frame(Clock::time_point now) {
+std::optional<FrameGuard::Fault> FrameGuard::count_frame(Clock::time_point now) {
   const bool is_control = (header_[0] & control_bit) != 0;
   if (is_control) {
     ends_message_ = fragments_of_message_ == 0;
     if ((header_[0] & opcode_bits) == opcode_of_close || controls_.take(1, now)) return std::nullopt;
-    return "sends too many pings";
+    return Fault{"sends too many pings", policy_violation};
   }
   ends_message_ = (header_[0] & final_bit) != 0;
   if (ends_message_) {
     fragments_of_message_ = 0;
     return std::nullopt;
   }
-  if (++fragments_of_message_ > limits_.max_fragments) return "sends a message in too many fragments";
-  if (!fragments_.take(1, now)) return "sends too many fragments of messages";
+  if (++fragments_of_message_ > limits_.max_fragments)
+    return Fault{"sends a message in too many fragments", policy_violation};
+  if (!fragments_.take(1, now)) return Fault{"sends too many fragments of messages", policy_violation};
   return std::nullopt;
+}
+
+/// At the end of a header.
+void FrameGuard::expect_code() {
+  const bool closes = (header_[0] & opcode_bits) == opcode_of_close;
+  code_bytes_left_ = closes && payload_left_ >= 2 && (header_[1] & mask_bit) != 0 ? 2 : 0;
+  close_code_ = 0;
+}
+
+bool FrameGuard::takes_wrong_code(std::string_view payload) {
+  // Control frames have the short form of a length, so the mask follows the fixed bytes.
+  for (; code_bytes_left_ > 0 && !payload.empty(); payload.remove_prefix(1), --code_bytes_left_) {
+    const unsigned mask = header_.at(fixed_bytes + (2U - code_bytes_left_));
+    close_code_ = close_code_ << 8U | (static_cast<unsigned char>(payload.front()) ^ mask);
+    if (code_bytes_left_ == 1 && close_code_ >= end_of_codes) return true;
+  }
+  return false;
 }
 
 }  // namespace semblante::net

@@ -16,25 +16,36 @@ namespace semblante::net {
 /// Limits the frames of a WebSocket's client that end no message: control frames, which Beast answers by itself, and
 /// fragments, which Beast reads without end when they are empty; and the time in which a message arrives, as every byte
 /// counts as activity for Beast. Whole messages are the peer's to limit. Reads only the
-/// frames' headers; what is wrong with them Beast refuses. Not synchronized.
+/// frames' headers, and the codes of close frames, as Beast takes those that no protocol can have; what else is wrong
+/// Beast refuses. Not synchronized.
 class FrameGuard {
  public:
   using Clock = TokenBucket::Clock;
+
+  static constexpr std::uint16_t protocol_error = 1002, policy_violation = 1008;
+
+  /// What ends the connection: words for the client, and the code of the close frame that has them.
+  struct Fault {
+    std::string_view words;
+    std::uint16_t code;
+  };
 
   explicit FrameGuard(const ServerLimits& limits)
       : limits_(limits),
         controls_(limits.controls_per_second, limits.controls_burst),
         fragments_(limits.fragments_per_second, limits.fragments_burst) {}
 
-  /// Looks at the bytes in the order in which they arrive, in pieces of any size. The words for the client at the first
-  /// frame that is too many or piece that is too late; after that nothing more is looked at.
-  [[nodiscard]] std::optional<std::string_view> look(std::string_view bytes, Clock::time_point now = Clock::now());
+  /// Looks at the bytes in the order in which they arrive, in pieces of any size. The fault at the first frame that
+  /// is too many or piece that is too late; after that nothing more is looked at.
+  [[nodiscard]] std::optional<Fault> look(std::string_view bytes, Clock::time_point now = Clock::now());
 
  private:
   [[nodiscard]] std::size_t header_bytes() const;
   [[nodiscard]] std::uint64_t payload_bytes() const;
-  [[nodiscard]] std::optional<std::string_view> look_at_frames(std::string_view bytes, Clock::time_point now);
-  [[nodiscard]] std::optional<std::string_view> count_frame(Clock::time_point now);
+  [[nodiscard]] std::optional<Fault> look_at_frames(std::string_view bytes, Clock::time_point now);
+  [[nodiscard]] std::optional<Fault> count_frame(Clock::time_point now);
+  void expect_code();
+  [[nodiscard]] bool takes_wrong_code(std::string_view payload);
 
   const ServerLimits& limits_;
   TokenBucket controls_, fragments_;
@@ -45,6 +56,8 @@ class FrameGuard {
   std::uint64_t bytes_ = 0;                 ///< received since then
   std::array<unsigned char, 14> header_{};  ///< of the current frame, as far as it has arrived
   std::uint8_t header_size_ = 0;
+  std::uint8_t code_bytes_left_ = 0;  ///< of the code of the close frame that arrives
+  unsigned close_code_ = 0;           ///< as far as it has arrived
   bool over_ = false;
 };
 

@@ -27,15 +27,16 @@ class OutboxStream {
  public:
   using executor_type = boost::asio::ip::tcp::socket::executor_type;
 
-  /// `tls` decrypts what is read; null for a plain socket. `on_flood` gets the words of `guard`, within a read. Nothing
-  /// more is read then: a flood that is read until the connection is closed takes the thread that others need.
+  /// `tls` decrypts what is read; null for a plain socket. `on_fault` gets what `guard` finds, within a read. Nothing
+  /// more is read then: a flood that is read until the connection is closed takes the thread that others need. Of a
+  /// fault of the protocol Beast does not get the bytes, which it would answer itself.
   OutboxStream(boost::asio::ip::tcp::socket socket, std::shared_ptr<TlsSession> tls, std::shared_ptr<Outbox> outbox,
-               FrameGuard guard, std::function<void(std::string_view)> on_flood)
+               FrameGuard guard, std::function<void(const FrameGuard::Fault&)> on_fault)
       : socket_(std::move(socket)),
         tls_(std::move(tls)),
         outbox_(std::move(outbox)),
         guard_(guard),
-        on_flood_(std::move(on_flood)) {}
+        on_fault_(std::move(on_fault)) {}
 
   executor_type get_executor() { return socket_.get_executor(); }
   [[nodiscard]] boost::asio::ip::tcp::socket& socket() { return socket_; }
@@ -78,11 +79,7 @@ class OutboxStream {
     void operator()(Self& self, boost::system::error_code error = {}, std::size_t plain_count = 0) {
       namespace asio = boost::asio;
       if (step == Step::held) return self.complete(error ? error : asio::error::connection_aborted, 0);
-      if (step == Step::begin && stream.flooded_) {
-        step = Step::held;  // until the socket is closed
-        stream.socket_.async_wait(asio::socket_base::wait_error, std::move(self));
-        return;
-      }
+      if (step == Step::begin && stream.is_over_) return hold(self);
       if (step == Step::begin && !stream.tls_) {
         step = Step::plain;
         stream.socket_.async_read_some(buffers, std::move(self));
@@ -111,8 +108,15 @@ class OutboxStream {
    private:
     template <class Self>
     void done(Self& self, boost::system::error_code error, std::size_t bytes) {
-      stream.look(buffers, bytes);
+      if (stream.look(buffers, bytes)) return hold(self);
       self.complete(error, bytes);
+    }
+
+    /// Until the socket is closed.
+    template <class Self>
+    void hold(Self& self) {
+      step = Step::held;
+      stream.socket_.async_wait(boost::asio::socket_base::wait_error, std::move(self));
     }
 
     /// The first buffer that has room; an empty one if none has.
@@ -156,26 +160,28 @@ class OutboxStream {
     bool closed = false;
   };
 
-  /// `count`: bytes that were read into the buffers.
+  /// `count`: bytes that were read into the buffers. Whether they must not be passed on.
   template <class Buffers>
-  void look(const Buffers& buffers, std::size_t count) {
+  bool look(const Buffers& buffers, std::size_t count) {
     for (auto at = boost::asio::buffer_sequence_begin(buffers); count > 0; ++at) {
       const boost::asio::mutable_buffer piece(*at);
       const auto size = std::min(count, piece.size());
-      if (const auto words = guard_.look({static_cast<const char*>(piece.data()), size})) {
-        flooded_ = true;
-        on_flood_(*words);
+      if (const auto fault = guard_.look({static_cast<const char*>(piece.data()), size})) {
+        is_over_ = true;
+        on_fault_(*fault);
+        if (fault->code == FrameGuard::protocol_error) return true;
       }
       count -= size;
     }
+    return false;
   }
 
   boost::asio::ip::tcp::socket socket_;
   std::shared_ptr<TlsSession> tls_;
   std::shared_ptr<Outbox> outbox_;
   FrameGuard guard_;
-  std::function<void(std::string_view)> on_flood_;
-  bool flooded_ = false;
+  std::function<void(const FrameGuard::Fault&)> on_fault_;
+  bool is_over_ = false;
 };
 
 /// Called by Beast at a timeout.

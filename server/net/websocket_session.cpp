@@ -102,9 +102,9 @@ class WebSocketConnection : public OutboxOwner, public std::enable_shared_from_t
     outbox_ = std::make_shared<Outbox>(socket.native_handle(), peer_->outbox_limits(), weak_from_this(), tls);
     // Posted: Beast is reading.
     ws_.emplace(std::move(socket), std::move(tls), outbox_, FrameGuard(state_->config.limits),
-                [this](std::string_view words) {
-                  asio::post(executor_, [self = shared_from_this(), words] {
-                    self->close({websocket::close_code::policy_error, std::string(words)}, flood_closing_time);
+                [this](const FrameGuard::Fault& fault) {
+                  asio::post(executor_, [self = shared_from_this(), fault] {
+                    self->close({fault.code, std::string(fault.words)}, flood_closing_time);
                   });
                 });
     websocket::stream_base::timeout clocks{};

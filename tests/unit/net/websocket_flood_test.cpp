@@ -115,8 +115,38 @@ TEST(FrameGuard, CountsFrames_HoweverTheBytesArrive) {
     const auto all = message + message + Client::frame('\x01', "") + repeated(Client::frame('\0', ""), 2);
     for (std::size_t at = 0; at < all.size(); at += piece)
       EXPECT_EQ(guard.look(std::string_view(all).substr(at, piece)), std::nullopt);
-    EXPECT_EQ(guard.look(Client::frame('\0', "")), "sends a message in too many fragments");
+    const auto fault = guard.look(Client::frame('\0', ""));
+    ASSERT_TRUE(fault);
+    EXPECT_EQ(fault->words, "sends a message in too many fragments");
   }
+}
+
+TEST(FrameGuard, FindsCodesThatThereAreNot_HoweverTheBytesArrive) {
+  const ServerLimits limits;
+  const auto fault_of = [&](const std::string& bytes, std::size_t piece) {
+    FrameGuard guard(limits);
+    std::optional<FrameGuard::Fault> fault;
+    for (std::size_t at = 0; at < bytes.size() && !fault; at += piece)
+      fault = guard.look(std::string_view(bytes).substr(at, piece));
+    return fault ? fault->code : 0;
+  };
+  const auto text = Client::frame('\x81', "\x17\x70"), ping = Client::frame('\x89', "\x17\x70");
+  for (const std::size_t piece : {std::size_t{1}, std::size_t{3}, std::size_t{4096}}) {
+    SCOPED_TRACE(piece);
+    EXPECT_EQ(fault_of(text + Client::frame('\x88', "\x17\x70why"), piece), FrameGuard::protocol_error);
+    EXPECT_EQ(fault_of(Client::frame('\x88', "\x13\x88"), piece), FrameGuard::protocol_error) << 5000;
+    EXPECT_EQ(fault_of(text + ping + Client::frame('\x88', "\x13\x87"), piece), 0) << 4999;
+    EXPECT_EQ(fault_of(Client::frame('\x88', ""), piece), 0);
+  }
+}
+
+TEST_F(WebSocketFlood, CodeThatThereIsNot_IsAnsweredWithAProtocolError) {
+  const auto all = flood_with(Client::frame('\x88', "\x17\x70"));  // 6000
+  EXPECT_TRUE(
+      all.ends_with("\x03\xEA"
+                    "closes with a code that there is not"))
+      << all;
+  EXPECT_TRUE(flood_with(Client::frame('\x88', "\x13\x87")).ends_with("\x13\x87")) << "4999 is anybody's";
 }
 
 TEST(FrameGuard, EndsAMessage_ThatArrivesTooSlowly) {
@@ -127,13 +157,13 @@ TEST(FrameGuard, EndsAMessage_ThatArrivesTooSlowly) {
   const auto half = std::string_view(big).substr(0, big.size() / 2), rest = std::string_view(big).substr(half.size());
   const auto slow = [&](const std::vector<std::pair<seconds, std::string>>& pieces) {
     FrameGuard guard(limits);
-    std::optional<std::string_view> words;
+    std::optional<FrameGuard::Fault> fault;
     const auto begin = FrameGuard::Clock::now();
     for (const auto& [after, bytes] : pieces) {
-      EXPECT_EQ(words, std::nullopt) << "before the last piece";
-      words = guard.look(bytes, begin + after);
+      EXPECT_EQ(fault, std::nullopt) << "before the last piece";
+      fault = guard.look(bytes, begin + after);
     }
-    return words == "sends a message too slowly";
+    return fault && fault->words == "sends a message too slowly";
   };
   const auto text = Client::frame('\x81', "hello"), ping = Client::frame('\x89', "p");
   const auto part = Client::frame('\x01', "a"), more = Client::frame('\0', "b");
