@@ -205,9 +205,11 @@ int main(int argc, char** argv) {
   app.add_option("--size", arguments.size, "size of one image in pixels")->capture_default_str();
   app.add_option("--frame", arguments.faps, "an additional face, NUMBER=VALUE,... in FAP units; repeatable");
   app.add_option("--weights", arguments.weights,
-                 "method of the weights: paper, smooth; both for a sheet that compares them")
+                 "method of the weights: " + semblante::pictures::weight_method_list() +
+                     "; two of them for a sheet that compares them")
+      ->type_name("METHOD")
       ->expected(1, 2)
-      ->transform(CLI::CheckedTransformer(semblante::pictures::weight_methods()));
+      ->transform(CLI::CheckedTransformer(semblante::pictures::weight_methods()).description(""));
   app.add_option("--max-vertices", arguments.max_vertices,
                  "draw the level of detail with at most this many vertices; 0: the full mesh");
   app.add_flag("--matrix", arguments.matrix,

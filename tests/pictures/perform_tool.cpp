@@ -156,7 +156,8 @@ int main(int argc, char** argv) {
   app.add_option("--shot", arguments.shot, "VIEW or VIEW:SUBJECT")->capture_default_str();
   app.add_option("--size", arguments.size, "size of one image in pixels")->capture_default_str();
   app.add_option("--columns", arguments.columns, "columns of the sheet; 0: about as wide as high");
-  app.add_option("--weights", arguments.weights, "method of the weights: paper or smooth")
-      ->transform(CLI::CheckedTransformer(semblante::pictures::weight_methods()));
+  app.add_option("--weights", arguments.weights, "method of the weights: " + semblante::pictures::weight_method_list())
+      ->type_name("METHOD")
+      ->transform(CLI::CheckedTransformer(semblante::pictures::weight_methods()).description(""));
   return semblante::tools::run_tool(app, argc, argv, [&] { return semblante::pictures::run(arguments); });
 }

@@ -8,6 +8,7 @@
 #include "clients/native/tools/files.h"
 #include "core/pipeline/levelled.h"
 #include "core/pipeline/points_file.h"
+#include "server/cli/folder_resources.h"
 
 namespace semblante::pictures {
 
@@ -64,7 +65,7 @@ Result<ImportedHead> load_model(const std::filesystem::path& path) {
   if (!bytes) {
     return bytes.error();
   }
-  auto head = import_head(*bytes, {path.filename().string(), std::nullopt, {}});
+  auto head = import_head(*bytes, {path.filename().string(), std::nullopt, {}, folder_resources(path.string())});
   if (!head) {
     return tools::in_file(path, std::move(head).error());
   }
@@ -100,6 +101,12 @@ std::map<std::string, WeightMethod> weight_methods() {
   std::map<std::string, WeightMethod> methods;
   for (const std::string_view name : weight_method_names) methods.emplace(name, parse_weight_method(name).value());
   return methods;
+}
+
+std::string weight_method_list() {
+  std::string list;
+  for (const std::string_view name : weight_method_names) list.append(list.empty() ? "" : ", ").append(name);
+  return list;
 }
 
 Result<semblante_frame> parse_faps(const std::string& text) {

@@ -39,6 +39,8 @@ Result<PosedHead> load_posed_head(const std::filesystem::path& model, const std:
 
 /// The methods by the names that --weights takes.
 std::map<std::string, WeightMethod> weight_methods();
+/// "paper, smooth, fitted"
+std::string weight_method_list();
 
 /// Parses "3=200,19=512" to a frame. Errors: invalid_argument, with the entry.
 Result<semblante_frame> parse_faps(const std::string& text);
