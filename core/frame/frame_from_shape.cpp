@@ -44,6 +44,16 @@ class ShapeGuess {
     }
     return best;
   }
+  [[nodiscard]] glm::dvec3 extent_of_all() const {
+    glm::dvec3 low(1e300);
+    glm::dvec3 high(-1e300);
+    for (const PartShape& shape : shapes_) {
+      if (shape.triangles == 0) continue;
+      low = glm::min(low, shape.low);
+      high = glm::max(high, shape.high);
+    }
+    return high - low;
+  }
   [[nodiscard]] const PartShape& skin() const { return shapes_[skin_]; }
   [[nodiscard]] PartId skin_id() const { return PartId(static_cast<std::uint32_t>(skin_)); }
   [[nodiscard]] bool is_gltf() const { return model_.format == "glb" || model_.format == "gltf"; }
@@ -52,14 +62,36 @@ class ShapeGuess {
   /// glTF defines the axes of a model; they are used unless the file contradicts them.
   bool stands_by_rule() {
     if (!is_gltf() || (up_ && *up_ != Direction::plus_y) || (across_ && *across_ != 0)) return false;
+    if (would_lie()) {
+      say("glTF models stand along +Y and face +Z, but this one would lie on its face then");
+      return false;
+    }
     say("glTF models stand along +Y and face +Z");
     return true;
+  }
+
+  /// Whether the head would lie on its face if +Y were up and nothing else is known, as one with Z up does that was
+  /// exported without being turned. Eyes look down then, and a body is longer along Z than any that stands is deep;
+  /// whether up is +Z is certain of neither, and of a length that fits no body less so: a crocodile may stand like that.
+  [[nodiscard]] bool would_lie() const {
+    if (shapes_.empty() || up_ || (across_ && *across_ != 0)) return false;
+    constexpr double least_share = 0.2;  // of the head's extent: the eyes of a head that stands are not so low
+    if (eyes_) {
+      const glm::dvec3 away = (eyes_->middle - skin().box_center()) / glm::max(skin().extent(), glm::dvec3(1e-300));
+      if (-away.y > least_share && -away.y > std::abs(away.z)) return true;
+    }
+    constexpr double least_length = 2.0;  // of the height: a head is about as long as it is high
+    const glm::dvec3 size = extent_of_all();
+    return size.z > least_length * size.y;
   }
 
   /// MPEG-4's axes, unless what was seen rules them out. A file with Z up looks along -Y (Blender) or, if Y is across,
   /// along +X (game engines).
   void assume_axes() {
     if (up_is_of_neck_) up_.reset();  // alone it may be the rim of a mask
+    const auto by_length = unit_of_height(extent_of_all().z);
+    const bool is_long_as_people = by_length && by_length->unit != LengthUnit::inch;
+    if (would_lie() && (eyes_ || is_long_as_people)) up_ = Direction::plus_z;
     if (up_ || across_ == 1 || across_ == 2) {
       if (!up_) up_ = across_ == 1 ? Direction::plus_z : Direction::plus_y;
       if (across_ && !front_) find_front();
@@ -147,14 +179,7 @@ class ShapeGuess {
         return;
       }
     }
-    glm::dvec3 low(1e300);
-    glm::dvec3 high(-1e300);
-    for (const PartShape& shape : shapes_) {
-      if (shape.triangles == 0) continue;
-      low = glm::min(low, shape.low);
-      high = glm::max(high, shape.high);
-    }
-    const glm::dvec3 size = high - low;
+    const glm::dvec3 size = extent_of_all();
     const double height = guess_.axes_sure ? size[axis_of(guess_.axes.up)] : std::max({size.x, size.y, size.z});
     const auto by_size = unit_of_height(height);
     const bool is_human_in_metres = by_size && by_size->unit == LengthUnit::metre;

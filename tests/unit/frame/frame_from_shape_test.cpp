@@ -164,6 +164,30 @@ TEST(FrameFromShape, AGltfThatLooksToASide_IsNotSure) {
   }
 }
 
+// Exported with Z up although glTF says Y.
+TEST(FrameFromShape, AGltfThatWouldLieOnItsFace_IsNotSure_AndItsTopIsAssumed) {
+  const Axes of_blender{Direction::plus_z, Direction::minus_y};
+  const auto guess_of = [](Model model, const Axes& axes, std::string_view format) {
+    model = turned(model, axes);
+    model.format = format;
+    return guess_frame(model, build_surface(model));
+  };
+  for (const std::string_view format : {"glb", "obj"}) {
+    const ModelFrame head = guess_of(skull(20.0F, -20.0F, true), of_blender, format);
+    EXPECT_FALSE(head.axes_sure) << format;
+    EXPECT_EQ(head.axes, of_blender) << format;
+    // Higher than wide, without eyes and open nowhere; the second is no body's size.
+    const Model body = testing::make_box(glm::vec3(-0.3F, 0.0F, -0.15F), glm::vec3(0.3F, 1.7F, 0.15F));
+    EXPECT_FALSE(guess_of(body, of_blender, format).axes_sure) << format;
+    EXPECT_EQ(guess_of(body, of_blender, format).axes, of_blender) << format;
+    EXPECT_EQ(guess_of(body, {}, format).axes, Axes{}) << format;
+    const Model fish = testing::make_box(glm::vec3(-0.3F, 0.0F, -4.0F), glm::vec3(0.3F, 1.0F, 4.0F));
+    EXPECT_FALSE(guess_of(fish, {}, format).axes_sure) << format;
+    EXPECT_EQ(guess_of(fish, {}, format).axes, Axes{}) << format;
+  }
+  EXPECT_TRUE(guess_of(skull(20.0F, -20.0F, true), {}, "glb").axes_sure);
+}
+
 TEST(FrameFromShape, ACube_IsTakenAsItLies) {
   Model cube;
   for (int i = 0; i < 8; ++i) cube.positions.emplace_back(i & 1, i >> 1 & 1, i >> 2);

@@ -83,6 +83,8 @@ export const portugueseRemarks: Sentences = {
     'Entre os olhos marcados há {length}, o que não é o tamanho de uma cabeça em m, dm, cm, mm ou in',
   'The marked eyes are {length} apart: {millimetres} mm if the unit is {unit}': 'Entre os olhos marcados há {length}: {millimetres} mm se a unidade é {unit}',
   'glTF models stand along +Y and face +Z': 'Modelos glTF ficam de pé ao longo de +Y e olham para +Z',
+  'glTF models stand along +Y and face +Z, but this one would lie on its face then':
+    'Modelos glTF ficam de pé ao longo de +Y e olham para +Z, mas este ficaria deitado sobre o rosto',
   'The axes of the head are uncertain without feature points: {up} is assumed to be up, and {front} the front':
     'Sem pontos característicos os eixos da cabeça são incertos: supõe-se que {up} seja o topo, e {front}, a frente',
   'Parts named as eyes are apart along {axis}': 'Partes com nomes de olhos estão separadas ao longo de {axis}',
