@@ -31,6 +31,8 @@ constexpr double greatest_turn = 0.82;
 constexpr double least_covered = 0.45;
 /// At least this share of the patch's outline is a groove; the rest ends between the points. A membrane has none.
 constexpr double least_grooved = 0.6;
+/// What lies so far behind other skin is hidden by it.
+constexpr double least_gap = 0.01;
 /// A patch that has not filled the eye after so many rings of triangles is a strip that winds.
 constexpr int most_rings = 400;
 /// Knots of the view from the front.
@@ -116,6 +118,24 @@ bool EyeSkin::find_eye() {
   double area = 0.0;
   for (const std::size_t f : patch_) area += faces_[f].area * faces_[f].normal.z;
   return area > least_covered * opening_.area() && is_grooved;
+}
+
+bool EyeSkin::find_welded_eye() {
+  if (!grow_from(opening_.middle()) || !ball()) return false;
+  if (hidden_share() <= least_grooved) return false;
+  double area = 0.0;
+  for (const std::size_t f : patch_) area += faces_[f].area * std::max(faces_[f].normal.z, 0.0);
+  if (area <= least_covered * opening_.area()) return false;
+  for (std::size_t k = 0; k < patch_.size(); ++k) {
+    const Face& from = faces_[patch_[k]];
+    for (const std::size_t next : from.beside) {
+      if (of_eye_[next] || !is_on_ball(faces_[next]) || bends_forward(from, faces_[next])) continue;
+      of_eye_[next] = true;
+      patch_.push_back(next);
+    }
+  }
+  is_welded_ = true;
+  return true;
 }
 
 bool EyeSkin::grow_from(const glm::dvec3& at) {
@@ -249,7 +269,7 @@ std::optional<EyeSkin::Seen> EyeSkin::seen_at(double x) const {
       z = at;
       is_eye = piece.is_eye;
     }
-    if (!is_eye) continue;
+    if (!is_eye || (is_welded_ && !opening_.contains({x, y, z}))) continue;
     if (!seen) seen = Seen{{x, y, z}, {x, y, z}};
     seen->upper = {x, y, z};
   }
@@ -367,16 +387,34 @@ double EyeSkin::grooved_share() const {
   return outline > 0 ? static_cast<double>(grooved) / static_cast<double>(outline) : 0.0;
 }
 
+double EyeSkin::hidden_share() const {
+  std::size_t outline = 0;
+  std::size_t ended = 0;
+  for (const std::size_t f : patch_) {
+    for (const std::size_t next : faces_[f].beside) {
+      if (of_eye_[next]) continue;
+      ++outline;
+      const auto front = front_face(faces_[next].middle);
+      const bool is_hidden = front && faces_[*front].middle.z > faces_[next].middle.z + least_gap * width_;
+      if (is_hidden || !is_smooth(faces_[f], faces_[next])) ++ended;
+    }
+  }
+  return outline > 0 ? static_cast<double>(ended) / static_cast<double>(outline) : 0.0;
+}
+
 bool EyeSkin::continues(const Face& from, const Face& to) const {
   return opening_.contains(to.middle) && is_smooth(from, to);
 }
 
 bool EyeSkin::is_smooth(const Face& from, const Face& to) const {
   if (!(to.normal.z > 0.0)) return false;
-  const double cosine = glm::dot(from.normal, to.normal);
-  if (glm::dot(from.normal, to.middle - from.middle) > 0.0 && cosine < std::cos(groove)) return false;
-  if (!ball_) return cosine > greatest_turn;
+  if (bends_forward(from, to)) return false;
+  if (!ball_) return glm::dot(from.normal, to.normal) > greatest_turn;
   return is_on_ball(to);
+}
+
+bool EyeSkin::bends_forward(const Face& from, const Face& to) {
+  return glm::dot(from.normal, to.middle - from.middle) > 0.0 && glm::dot(from.normal, to.normal) < std::cos(groove);
 }
 
 bool EyeSkin::is_on_ball(const Face& face) const {

@@ -53,6 +53,10 @@ class EyeSkin {
   /// Marks the triangles of the eye, from the one in the middle of the opening on. Whether they fill it.
   bool find_eye();
 
+  /// Marks the triangles of a ball that goes on behind the lids and is welded to them somewhere, as converters do that
+  /// merge vertices: what is seen of it, and all that is hidden. Whether there is one that fills the opening.
+  bool find_welded_eye();
+
   /// Marks the triangles that go on smoothly from the one that is seen at `at`. Whether they end.
   bool grow_from(const glm::dvec3& at);
 
@@ -123,6 +127,9 @@ class EyeSkin {
   [[nodiscard]] std::optional<Sphere> ball_of_patch() const;
   /// The share of the patch's outline at which the surface does not go on smoothly.
   [[nodiscard]] double grooved_share() const;
+  /// The share of the patch's outline at which the surface does not go on smoothly, or behind other skin.
+  [[nodiscard]] double hidden_share() const;
+  [[nodiscard]] static bool bends_forward(const Face& from, const Face& to);
   /// Whether the eye goes on from one triangle to the next.
   [[nodiscard]] bool continues(const Face& from, const Face& to) const;
   [[nodiscard]] bool is_smooth(const Face& from, const Face& to) const;
@@ -135,6 +142,7 @@ class EyeSkin {
   std::vector<std::size_t> patch_;  ///< the places in `faces_` of the triangles of the eye
   std::vector<bool> of_eye_;
   std::optional<Sphere> ball_;
+  bool is_welded_ = false;  ///< what lies beyond the opening is not the eye that is seen
 };
 
 }  // namespace semblante

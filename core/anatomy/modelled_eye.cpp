@@ -6,6 +6,7 @@
 #include "core/anatomy/eye_skin.h"
 #include "core/anatomy/joined_rims.h"
 #include "core/anatomy/lid_edge.h"
+#include "core/geometry/nearest_point.h"
 #include "core/tables/openings.h"
 
 namespace semblante {
@@ -16,6 +17,8 @@ namespace {
 constexpr std::array<double, 2> beyond_points = {0.12, -0.05};
 /// The greatest height of the eye that is seen, as a multiple of that at the point of the upper lid.
 constexpr double greatest_beside_point = 1.1;
+/// What is nearer to the edges of the lids is theirs, in widths of the eye, where the eye is welded to them.
+constexpr double near_edge = 0.02;
 /// Columns in which the edges of the lids are looked for.
 constexpr int rim_columns = 19;
 
@@ -73,16 +76,36 @@ std::optional<LidPoints> lid_points(std::span<const SurfacePoint> points, const 
   return LidPoints{*upper, *lower, *left, *right};
 }
 
+/// Leaves what a welded eye shares with the lids to the lids: what is near their edges.
+void leave_edges(const Surface& surface, std::span<const SurfacePoint> points, const LidPoints& lids, double width,
+                 std::vector<SurfaceVertexId>& held) {
+  std::vector<glm::dvec3> edges;
+  for (std::size_t eye = 0; eye < 2; ++eye) {
+    const auto found = find_eye_edges(surface, points, eye);
+    if (!found || found->upper.middle.id != lids.upper.id) continue;
+    for (const LidEdge* const edge : {&found->upper, &found->lower}) {
+      for (const auto& way : edge->to_corner)
+        for (const SurfaceVertexId v : way) edges.push_back(surface.positions[v.value()]);
+    }
+  }
+  if (edges.empty()) return;
+  NearestPoint nearest(edges);
+  std::erase_if(held,
+                [&](SurfaceVertexId v) { return nearest.has_within(surface.positions[v.value()], near_edge * width); });
+}
+
 std::optional<ModelledEye> eye_between(const Surface& surface, std::span<const Triangle> triangles,
                                        std::span<const SurfacePoint> points, const LidPoints& lids,
-                                       const EyeOpening& opening) {
+                                       const EyeOpening& opening, bool is_welded) {
   if (!opening.is_sane()) return std::nullopt;
   EyeSkin skin(surface, surface.positions, triangles, surface.part_of[lids.upper.vertex.value()], opening,
                opening.width());
-  if (!skin.find_eye()) return std::nullopt;
-  if (skin.is_on_ball(lids.left.vertex) || skin.is_on_ball(lids.right.vertex)) return std::nullopt;
+  if (!(is_welded ? skin.find_welded_eye() : skin.find_eye())) return std::nullopt;
+  // Lids that a ball goes on behind may lie as close to it as the eye of a sculpture to its ball.
+  if (!is_welded && (skin.is_on_ball(lids.left.vertex) || skin.is_on_ball(lids.right.vertex))) return std::nullopt;
   ModelledEye found;
   found.held = skin.inner_vertices();
+  if (is_welded) leave_edges(surface, points, lids, opening.width(), found.held);
   const bool is_point_held = std::any_of(points.begin(), points.end(), [&](const SurfacePoint& p) {
     return std::binary_search(found.held.begin(), found.held.end(), p.vertex);
   });
@@ -117,9 +140,10 @@ std::optional<ModelledEye> eye_between(const Surface& surface, std::span<const T
 std::optional<ModelledEye> find_modelled_eye(const Surface& surface, std::span<const Triangle> triangles,
                                              std::span<const SurfacePoint> points, const mpeg4::Opening& opening) {
   const std::optional<LidPoints> lids = lid_points(points, opening);
-  if (!lids || !are_joined(surface, opening, points)) return std::nullopt;
+  if (!lids) return std::nullopt;
+  const bool is_welded = !are_joined(surface, opening, points);
   for (const double beyond : beyond_points) {
-    auto found = eye_between(surface, triangles, points, *lids, EyeOpening(lids->places(), beyond));
+    auto found = eye_between(surface, triangles, points, *lids, EyeOpening(lids->places(), beyond), is_welded);
     if (found) return found;
   }
   return std::nullopt;

@@ -17,7 +17,8 @@
 namespace semblante {
 
 /// An eye that is modelled in the skin, as on sculptures and scans: no part of its own, but a patch between the lids
-/// that is smooth and ends in a groove where the lids step forward. Lids close over it while it stays.
+/// that is smooth and ends in a groove where the lids step forward. Lids close over it while it stays. Or a ball that
+/// goes on behind the lids and shares some vertices with them, as after a merge of what is near.
 struct ModelledEye {
   /// A place on the edge of a lid, as it is seen from the front.
   struct RimPlace {
@@ -37,9 +38,10 @@ using ModelledEyes = std::array<std::optional<ModelledEye>, 2>;
 /// Whether one of the eyes holds a vertex.
 bool is_held(const ModelledEyes& eyes, SurfaceVertexId vertex);
 
-/// The modelled eyes of a head: those that have no part of their own and lids of one skin (`are_joined`). An eye is
-/// empty if a point of its lids is missing or lies on it (a corner on the ball too), or if no smooth patch fills most
-/// of the opening between the points: a membrane, or a mesh that is too coarse. `triangles` are of file vertices.
+/// The modelled eyes of a head: those that have no part of their own. Where the lids are one skin (`are_joined`) the
+/// eye ends in a groove, else it is a ball that goes on behind them. An eye is empty if a point of its lids is missing
+/// or lies on it (a corner on the ball too), or if no smooth patch fills most of the opening between the points: a
+/// membrane, nothing at all, or a mesh that is too coarse. `triangles` are of file vertices.
 ModelledEyes find_modelled_eyes(const Surface& surface, std::span<const Triangle> triangles,
                                 std::span<const Part> parts, std::span<const SurfacePoint> points);
 
