@@ -29,6 +29,7 @@ constexpr auto at_openings =
 
 struct Hole {
   double length = 0.0;
+  bool is_closed = true;
   VertexSample vertices;
   std::vector<glm::dvec3> places;
 };
@@ -68,9 +69,13 @@ std::vector<Finding> find_holes(const Subject& head) {
     return head.rig.parts[head.surface.part_of[vertex].value()].role == PartRole::skin;
   };
   Chains chains;
+  std::unordered_map<std::uint32_t, int> borders_at;  // by vertex
   for (std::size_t e = 0; e < head.mesh.edge_count(); ++e) {
     const auto sides = head.mesh.sides_of(e);
-    if (sides.size() == 1 && on_skin(sides[0].low)) chains.join(sides[0].low, sides[0].high);
+    if (sides.size() != 1 || !on_skin(sides[0].low)) continue;
+    chains.join(sides[0].low, sides[0].high);
+    ++borders_at[sides[0].low];
+    ++borders_at[sides[0].high];
   }
   std::unordered_map<std::uint32_t, Hole> holes;
   for (std::size_t e = 0; e < head.mesh.edge_count(); ++e) {
@@ -83,9 +88,14 @@ std::vector<Finding> find_holes(const Subject& head) {
     if (hole.places.size() < 256) hole.places.push_back(a);
   }
 
+  // The free edges of a flap that stands on the skin have ends; the edges of a hole have none.
+  for (const auto& [vertex, borders] : borders_at) {
+    if (borders % 2 == 1) holes[chains.find(vertex)].is_closed = false;
+  }
+
   NearestPoint nearest(skin_places);
   for (auto& [root, hole] : holes) {
-    if (hole.length > longest * unit) continue;
+    if (!hole.is_closed || hole.length > longest * unit) continue;
     double least = std::numeric_limits<double>::infinity();
     std::size_t point = 0;
     glm::dvec3 at(0.0);

@@ -68,6 +68,26 @@ TEST(DoctorReport, ManyFindingsOfAKind_AreNotAllTold) {
   EXPECT_THAT(told.back()->words, HasSubstr("; the same applies to "));
 }
 
+// Its free edges surround nothing: `non-manifold-edges` tells it.
+TEST(DoctorReport, AFlapThatStandsOnTheSkin_IsNoHole) {
+  testing::Head head = testing::sample_head();
+  const auto holes_of = [&head] {
+    const auto findings = testing::examine_without_weights(head).findings;
+    return std::count_if(findings.begin(), findings.end(),
+                         [](const Finding& f) { return f.code == FindingCode::hole_near_points; });
+  };
+  const auto before = holes_of();
+  const glm::dvec3 cheek = testing::place(head, "5.3");
+  const double unit = testing::unit(head);
+  const auto near = testing::triangles_near(head, cheek, 0.2 * unit);
+  ASSERT_FALSE(near.empty());
+  const Triangle under = head.model.triangles[near.front()];
+  testing::begin_primitive(head, "flap");
+  const glm::dvec3 tip = glm::dvec3(head.model.positions[under[0]]) + glm::dvec3(0.0, 0.0, 0.05 * unit);
+  testing::add_triangle(head, {under[0], under[1], testing::add_vertex(head, tip)});
+  EXPECT_EQ(holes_of(), before);
+}
+
 std::vector<Finding> idle_parts(const testing::Head& head) {
   std::vector<Finding> idle;
   for (const Finding& finding : testing::examine_without_weights(head).findings) {

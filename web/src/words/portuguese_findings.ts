@@ -148,7 +148,7 @@ export const portugueseFindings: Readonly<Record<string, Say>> = {
   ],
   'eye-cannot-turn': (facts) => [
     `Nenhuma parte é o globo ocular ${side(facts)}, e os FAPs ${side(facts) === 'esquerdo' ? '23, 25 e 27' : '24, 26 e 28'} não têm efeito`,
-    'Dê este papel à parte do globo ocular; um olho pintado na pele não gira',
+    'Dê este papel à parte do globo ocular, e separe-a antes da pele se as duas estão unidas; um olho pintado na pele não gira',
   ],
   'hole-near-points': (facts) => [`A pele tem um buraco ao lado de ${first(facts)}; a influência passa em volta dele, e o fundo aparece`, 'Feche o buraco no programa que fez o modelo'],
   'inside-out': () => [
