@@ -1,17 +1,21 @@
 #include "core/anatomy/pivots.h"
 
+#include <algorithm>
+#include <string_view>
 #include <vector>
 
 #include <glm/geometric.hpp>
 
 #include "core/anatomy/point_lookup.h"
 #include "core/geometry/sphere_fit.h"
+#include "core/tables/openings.h"
 
 namespace semblante {
 namespace {
 
 // In units of ES0. Measured on two heads of known anatomy, which agree within 5 %.
 constexpr double eye_center_behind_pupil = 0.2;
+constexpr double center_behind_corners = 0.05;
 constexpr double spine_below_eyes = 0.74;
 constexpr double spine_behind_eyes = 1.6;
 
@@ -37,6 +41,19 @@ std::optional<std::uint32_t> largest_part(std::span<const Part> parts, PartRole 
 
 glm::dvec3 box_center(const Part& part) { return 0.5 * (glm::dvec3(part.box_min) + glm::dvec3(part.box_max)); }
 
+/// How far the centre of an eye without a part of its own lies behind its pupil. Beyond the corners of the lids, which
+/// wrap around the large eyes of cartoons: a lid behind the axis on which it rolls would go into the head.
+double depth_of_center(const FeaturePoint& pupil, double eye_separation, PartRole role, const FeaturePointSet& points) {
+  double behind = eye_center_behind_pupil * eye_separation;
+  for (const std::string_view name : mpeg4::lids_of(role == PartRole::left_eye ? 0 : 1).corners) {
+    const FeaturePoint* const corner = find_point(points, name);
+    if (corner == nullptr) continue;
+    const double depth = static_cast<double>(pupil.position.z) - static_cast<double>(corner->position.z);
+    behind = std::max(behind, depth + center_behind_corners * eye_separation);
+  }
+  return behind;
+}
+
 /// The ball without its protrusions (cornea, optic nerve): fitted again to the vertices near the first fit.
 std::optional<Sphere> fit_ball(const Surface& surface, PartId part) {
   std::vector<glm::dvec3> positions;
@@ -61,7 +78,11 @@ glm::vec3 eye_pivot(const Surface& surface, std::span<const Part> parts, PartRol
   const double behind = pupils ? eye_center_behind_pupil * glm::distance(pupils->left, pupils->right) : 0.0;
 
   const std::optional<std::uint32_t> part = largest_part(parts, role);
-  if (!part) return pupil != nullptr ? pupil->position - glm::vec3(0.0F, 0.0F, behind) : glm::vec3(0.0F);
+  if (!part) {
+    if (pupil == nullptr) return glm::vec3(0.0F);
+    const double separation = pupils ? glm::distance(pupils->left, pupils->right) : 0.0;
+    return pupil->position - glm::vec3(0.0F, 0.0F, pupils ? depth_of_center(*pupil, separation, role, points) : 0.0);
+  }
 
   const glm::dvec3 center = box_center(parts[*part]);
   const glm::dvec3 extent = glm::dvec3(parts[*part].box_max) - glm::dvec3(parts[*part].box_min);

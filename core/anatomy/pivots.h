@@ -13,7 +13,7 @@ namespace semblante {
 
 /// The pivot of an eye: the centre of the sphere fitted to the largest part with `role`, or the centre of its box if it
 /// is not a ball. For a flat disc (only an iris) or without a part: behind the pupil, at the distance in an adult's
-/// eyeball.
+/// eyeball; without a part also behind the corners of the lids.
 glm::vec3 eye_pivot(const Surface& surface, std::span<const Part> parts, PartRole role, const FeaturePointSet& points);
 
 /// The pivot of the head: 7.1, or the head's joint of `joints` (the result of plausible_joints()), or an estimate from

@@ -82,6 +82,20 @@ TEST(EyePivot, NoPart_IsBehindThePupil) {
   EXPECT_LT(glm::distance(pivot, glm::vec3(-3, 4, 7.8F)), 1e-5F);
 }
 
+// As on cartoons: a lid that lies behind the axis on which it rolls would cave in.
+TEST(EyePivot, NoPart_IsBehindTheCornersOfLidsThatWrapAroundTheEye) {
+  const Model skin = testing::make_grid(2, 2);
+  const auto pivot_with_corner_at = [&](float depth) {
+    FeaturePointSet points = pupils;
+    points.push_back(bare("3.8", {-2, 4, 8.9F}));
+    points.push_back(bare("3.12", {-5, 4, 9 - depth}));
+    return eye_pivot(build_surface(skin), std::vector{part_of(skin, PartRole::skin)}, PartRole::right_eye, points);
+  };
+  EXPECT_LT(glm::distance(pivot_with_corner_at(0.7F), glm::vec3(-3, 4, 7.8F)), 1e-5F) << "as on people";
+  // 0.05 ES0 = 0.3 behind the corner.
+  EXPECT_LT(glm::distance(pivot_with_corner_at(1.8F), glm::vec3(-3, 4, 6.9F)), 1e-5F);
+}
+
 TEST(HeadPivot, Marked_IsThatPoint) {
   FeaturePointSet points = pupils;
   points.push_back(bare("7.1", {0, -1, 0.5F}));
