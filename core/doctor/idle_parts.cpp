@@ -168,9 +168,8 @@ void find_still_eyes(const Subject& head, std::vector<Finding>& out) {
     finding.words =
         "no part is the " + std::string(eye.name) + " eyeball, so FAPs " + std::string(eye.faps) + " have no effect";
     finding.remedy =
-        "give the eyeball's part this role, and separate it from the skin before if both are joined; an eye painted on "
-        "the "
-        "skin cannot rotate";
+        "give the eyeball's part this role, and separate it from the skin before if both are joined; an eye painted "
+        "on the skin cannot rotate";
     out.push_back(std::move(finding));
   }
 }

@@ -70,10 +70,9 @@ class ShapeGuess {
     return true;
   }
 
-  /// Whether the head would lie on its face if +Y were up and nothing else is known, as one with Z up does that was
-  /// exported without being turned. Eyes look down then, and a body is longer along Z than any that stands is deep;
-  /// whether up is +Z is certain of neither, and of a length that fits no body less so: a crocodile may stand like
-  /// that.
+  /// Whether a head with +Y up would lie on its face, where nothing else tells its axes: so does a model with Z up that
+  /// was exported without being turned. Its eyes look down, or it is longer along Z than a standing body is deep.
+  /// Neither is certain: a crocodile stands like that.
   [[nodiscard]] bool would_lie() const {
     if (shapes_.empty() || up_ || (across_ && *across_ != 0)) return false;
     constexpr double least_share = 0.2;  // of the head's extent: the eyes of a head that stands are not so low
