@@ -31,15 +31,17 @@ enum class ErrorCode {
 /// `advice` is set where the kind of error alone does not tell what helps: `message` does not repeat it.
 struct Error {
   Error() = default;
-  Error(ErrorCode kind, std::string place, std::string words, std::optional<Advice> helps = std::nullopt)
-      : code(kind), where(std::move(place)), message(std::move(words)), advice(helps) {}
+  Error(ErrorCode kind, std::string place, std::string words)
+      : code(kind), where(std::move(place)), message(std::move(words)) {}
+  Error(ErrorCode kind, std::string place, std::string words, std::optional<Advice> helps)
+      : code(kind), advice(helps), where(std::move(place)), message(std::move(words)) {}
   /// Of fixed texts, which many errors have: small code where they are made.
   Error(ErrorCode kind, const char* place, const char* words);
 
   ErrorCode code = ErrorCode::internal;
+  std::optional<Advice> advice;
   std::string where;
   std::string message;
-  std::optional<Advice> advice;
 };
 
 /// A value or an error. For untrusted input; mistakes of the caller are asserts. An error is on the heap: few results
