@@ -180,6 +180,8 @@ test('PageOfAStream_CaptionsButton_ShowsWordsInStepWithTheSound_AndIsRemembered'
   expect(await button.getAttribute('aria-pressed')).toBe('true');
   await say('Papa!');
   await page.waitForFunction(() => document.querySelector('semblante-face')!.shadowRoot!.querySelector('.captions')!.textContent === 'Papa!');
+  // The next element would show these words as well if it came before their end.
+  await page.waitForFunction(() => document.querySelector('semblante-face')!.shadowRoot!.querySelector('.captions')!.textContent === '');
   await button.click();
   expect(await page.evaluate(() => localStorage.getItem('semblante.captions'))).toBe('off');
 
