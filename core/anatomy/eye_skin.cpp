@@ -374,32 +374,30 @@ void EyeSkin::add_holes() {
   }
 }
 
-double EyeSkin::grooved_share() const {
-  std::size_t outline = 0;
-  std::size_t grooved = 0;
-  for (const std::size_t f : patch_) {
-    for (const std::size_t next : faces_[f].beside) {
-      if (of_eye_[next]) continue;
-      ++outline;
-      if (!is_smooth(faces_[f], faces_[next])) ++grooved;
-    }
-  }
-  return outline > 0 ? static_cast<double>(grooved) / static_cast<double>(outline) : 0.0;
-}
-
-double EyeSkin::hidden_share() const {
+template <class Ends>
+double EyeSkin::share_of_outline(const Ends& ends) const {
   std::size_t outline = 0;
   std::size_t ended = 0;
   for (const std::size_t f : patch_) {
     for (const std::size_t next : faces_[f].beside) {
       if (of_eye_[next]) continue;
       ++outline;
-      const auto front = front_face(faces_[next].middle);
-      const bool is_hidden = front && faces_[*front].middle.z > faces_[next].middle.z + least_gap * width_;
-      if (is_hidden || !is_smooth(faces_[f], faces_[next])) ++ended;
+      if (ends(faces_[f], faces_[next])) ++ended;
     }
   }
   return outline > 0 ? static_cast<double>(ended) / static_cast<double>(outline) : 0.0;
+}
+
+double EyeSkin::grooved_share() const {
+  return share_of_outline([&](const Face& from, const Face& to) { return !is_smooth(from, to); });
+}
+
+double EyeSkin::hidden_share() const {
+  return share_of_outline([&](const Face& from, const Face& to) {
+    const auto front = front_face(to.middle);
+    const bool is_hidden = front && faces_[*front].middle.z > to.middle.z + least_gap * width_;
+    return is_hidden || !is_smooth(from, to);
+  });
 }
 
 bool EyeSkin::continues(const Face& from, const Face& to) const {

@@ -53,8 +53,9 @@ class EyeSkin {
   /// Marks the triangles of the eye, from the one in the middle of the opening on. Whether they fill it.
   bool find_eye();
 
-  /// Marks the triangles of a ball that goes on behind the lids and is welded to them somewhere, as converters do that
-  /// merge vertices: what is seen of it, and all that is hidden. Whether there is one that fills the opening.
+  /// Marks the triangles of a ball that goes on behind the lids and is welded to them at some vertices, as by a
+  /// converter that merges near vertices. Hidden triangles are marked too. Returns whether there is a ball that fills
+  /// the opening.
   bool find_welded_eye();
 
   /// Marks the triangles that go on smoothly from the one that is seen at `at`. Whether they end.
@@ -125,9 +126,12 @@ class EyeSkin {
   [[nodiscard]] std::optional<std::size_t> front_face(const glm::dvec3& at) const;
   /// The ball through the corners of the patch; empty while it is small.
   [[nodiscard]] std::optional<Sphere> ball_of_patch() const;
+  /// The share of the patch's outline at which `ends(face of the patch, face beside it)`.
+  template <class Ends>
+  [[nodiscard]] double share_of_outline(const Ends& ends) const;
   /// The share of the patch's outline at which the surface does not go on smoothly.
   [[nodiscard]] double grooved_share() const;
-  /// The share of the patch's outline at which the surface does not go on smoothly, or behind other skin.
+  /// The share of the patch's outline at which the surface does not go on smoothly, or goes on behind other skin.
   [[nodiscard]] double hidden_share() const;
   [[nodiscard]] static bool bends_forward(const Face& from, const Face& to);
   /// Whether the eye goes on from one triangle to the next.

@@ -17,8 +17,9 @@
 namespace semblante {
 
 /// An eye that is modelled in the skin, as on sculptures and scans: no part of its own, but a patch between the lids
-/// that is smooth and ends in a groove where the lids step forward. Lids close over it while it stays. Or a ball that
-/// goes on behind the lids and shares some vertices with them, as after a merge of what is near.
+/// that is smooth and ends in a groove where the lids step forward. Lids close over it while it stays. A
+/// ball that goes on behind the lids and shares some vertices with them counts as one too: converters that merge near
+/// vertices make such eyes.
 struct ModelledEye {
   /// A place on the edge of a lid, as it is seen from the front.
   struct RimPlace {

@@ -41,8 +41,8 @@ std::optional<std::uint32_t> largest_part(std::span<const Part> parts, PartRole 
 
 glm::dvec3 box_center(const Part& part) { return 0.5 * (glm::dvec3(part.box_min) + glm::dvec3(part.box_max)); }
 
-/// How far the centre of an eye without a part of its own lies behind its pupil. Beyond the corners of the lids, which
-/// wrap around the large eyes of cartoons: a lid behind the axis on which it rolls would go into the head.
+/// How far the centre of an eye without a part of its own lies behind its pupil. The centre is behind the corners of
+/// the lids too: a lid behind the axis on which it rolls would go into the head, as on large eyes of cartoons.
 double depth_of_center(const FeaturePoint& pupil, double eye_separation, PartRole role, const FeaturePointSet& points) {
   double behind = eye_center_behind_pupil * eye_separation;
   for (const std::string_view name : mpeg4::lids_of(role == PartRole::left_eye ? 0 : 1).corners) {
@@ -75,12 +75,12 @@ std::optional<Sphere> fit_ball(const Surface& surface, PartId part) {
 glm::vec3 eye_pivot(const Surface& surface, std::span<const Part> parts, PartRole role, const FeaturePointSet& points) {
   const FeaturePoint* const pupil = find_point(points, role == PartRole::left_eye ? "3.5" : "3.6");
   const std::optional<Pupils> pupils = find_pupils(points);
-  const double behind = pupils ? eye_center_behind_pupil * glm::distance(pupils->left, pupils->right) : 0.0;
+  const double separation = pupils ? glm::distance(pupils->left, pupils->right) : 0.0;
+  const double behind = eye_center_behind_pupil * separation;
 
   const std::optional<std::uint32_t> part = largest_part(parts, role);
   if (!part) {
     if (pupil == nullptr) return glm::vec3(0.0F);
-    const double separation = pupils ? glm::distance(pupils->left, pupils->right) : 0.0;
     return pupil->position - glm::vec3(0.0F, 0.0F, pupils ? depth_of_center(*pupil, separation, role, points) : 0.0);
   }
 
