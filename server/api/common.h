@@ -19,7 +19,7 @@ struct Refused {
   unsigned retry_after = 0;  ///< seconds, for Retry-After; 0: no such header
 };
 [[noreturn]] void refuse(std::string_view slug, std::string detail, std::string pointer = {});
-/// With an advice in place of what usually helps against this problem, or with none.
+/// The problem's usual advice is replaced by `advice`, or left out.
 [[noreturn]] void refuse(std::string_view slug, std::string detail, std::string pointer, std::optional<Advice> advice);
 /// Refuses with 429 and a Retry-After of so many seconds.
 [[noreturn]] void refuse_for_now(std::string detail, unsigned retry_after);

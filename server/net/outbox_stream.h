@@ -28,8 +28,8 @@ class OutboxStream {
   using executor_type = boost::asio::ip::tcp::socket::executor_type;
 
   /// `tls` decrypts what is read; null for a plain socket. `on_fault` gets what `guard` finds, within a read. Nothing
-  /// more is read then: a flood that is read until the connection is closed takes the thread that others need. Of a
-  /// fault of the protocol Beast does not get the bytes, which it would answer itself.
+  /// more is read then: a flood that is read until the connection is closed takes the thread that others need. Beast
+  /// does not get the bytes of a protocol fault, because it would answer them itself.
   OutboxStream(boost::asio::ip::tcp::socket socket, std::shared_ptr<TlsSession> tls, std::shared_ptr<Outbox> outbox,
                FrameGuard guard, std::function<void(const FrameGuard::Fault&)> on_fault)
       : socket_(std::move(socket)),
