@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cctype>
 #include <initializer_list>
+#include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -87,6 +89,24 @@ Region region_of(const PartShape& shape) {
   return by_material != Region::unknown ? by_material : region_of_name(lower_case(shape.name));
 }
 
+bool is_eye(std::optional<PartRole> role) { return role == PartRole::left_eye || role == PartRole::right_eye; }
+
+/// On which sides of the face the parts of a name lie.
+class SidesOfNames {
+ public:
+  void add(const std::string& name, double x) { (x > 0.0 ? sides_[name].left : sides_[name].right) = true; }
+  [[nodiscard]] bool on_both(const std::string& name) const {
+    const auto found = sides_.find(name);
+    return found != sides_.end() && found->second.left && found->second.right;
+  }
+
+ private:
+  struct Sides {
+    bool left = false, right = false;
+  };
+  std::map<std::string, Sides> sides_;
+};
+
 }  // namespace
 
 bool is_named_teeth(const PartShape& shape) {
@@ -116,11 +136,25 @@ void guess_roles_by_name(std::span<const PartShape> shapes, std::span<std::optio
     high = shapes[p].high.x;
     break;
   }
+  const double middle = 0.5 * (low + high);
+  SidesOfNames sides;
+  for (const PartShape& shape : shapes) {
+    if (shape.triangles == 0) continue;
+    sides.add(lower_case(shape.name), shape.center.x - middle);
+    sides.add(lower_case(shape.material), shape.center.x - middle);
+  }
+  // One mesh that two nodes show is named after one of its eyes: where parts of a name lie on both sides, the place
+  // tells which eye it is.
+  const auto role_by = [&](const std::string& name, double x) {
+    const std::optional<PartRole> role = role_of_name(name, x);
+    if (!is_eye(role) || !sides.on_both(name)) return role;
+    return std::optional(x > 0.0 ? PartRole::left_eye : PartRole::right_eye);
+  };
   for (std::size_t p = 0; p < shapes.size(); ++p) {
     if (roles[p] || shapes[p].triangles == 0) continue;
-    const double x = shapes[p].center.x - 0.5 * (low + high);
-    roles[p] = role_of_name(lower_case(shapes[p].name), x);
-    if (!roles[p]) roles[p] = role_of_name(lower_case(shapes[p].material), x);
+    const double x = shapes[p].center.x - middle;
+    roles[p] = role_by(lower_case(shapes[p].name), x);
+    if (!roles[p]) roles[p] = role_by(lower_case(shapes[p].material), x);
     if (!roles[p] && body_is_apart && is_body_name(shapes[p])) roles[p] = PartRole::rest;
   }
 }

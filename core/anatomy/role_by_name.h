@@ -11,8 +11,8 @@ namespace semblante {
 
 /// Fills empty roles from descriptive names ("EyeLeft", "teeth-lower", "M_EyeLashes"): the name of the part's
 /// primitive, else that of its material. Parts named only "teeth" or "gums" get their roles by place; an
-/// "eye" without a side in its name gets the side of its place. Parts named as body or clothing are at rest, unless the
-/// skin itself has such a name.
+/// "eye" without a side in its name gets the side of its place, as do eyes on both sides that have one name. Parts
+/// named as body or clothing are at rest, unless the skin itself has such a name.
 void guess_roles_by_name(std::span<const PartShape> shapes, std::span<std::optional<PartRole>> roles);
 
 /// True if the material of a part, or else its primitive, is named as the skin of a face: "Wolf3D_Head",

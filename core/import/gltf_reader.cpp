@@ -2,7 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <optional>
+
+#include <glm/common.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vector_relational.hpp>
 
 #include "core/draco/draco_mesh.h"
 #include "core/import/gltf_document.h"
@@ -141,7 +146,9 @@ class GltfReader {
       placements_ = std::move(scene.meshes);
       if (!document_.failed()) builder_.model.neck_joints = find_neck_joints(document_, scene.world);
     }
-    for (std::size_t mesh = 0; !document_.failed() && mesh < document_.count("meshes"); ++mesh) read_mesh(mesh);
+    sizes_.resize(placements_.size());
+    for (std::size_t mesh = 0; !document_.failed() && mesh < placements_.size(); ++mesh) read_mesh(mesh);
+    if (!document_.failed()) read_further_places();
     if (document_.failed()) return document_.fault();
     pad(builder_.model.uvs);
     pad(builder_.model.normals);
@@ -149,17 +156,88 @@ class GltfReader {
   }
 
  private:
+  /// A mesh with its vertices in their place among the file's, where its first node puts it.
   void read_mesh(std::size_t index) {
-    const JsonCursor mesh = document_.item("meshes", index);
-    const std::string name = printable(mesh.text_or("name", ""));  // truncated, because every primitive keeps a copy
-    const auto& placement = placements_[index];
-    if (!placement) {
-      builder_.warn("mesh " + std::to_string(index) + " " + shown(name) +
+    const auto& places = placements_[index].kept;
+    if (places.empty()) {
+      builder_.warn("mesh " + std::to_string(index) + " " + shown_name(index) +
                     " is in no node of the scene: its vertices keep their numbers, its triangles are omitted");
-    } else if (placement->node_count > 1) {
-      builder_.warn("mesh " + std::to_string(index) + " " + shown(name) + " is in " +
-                    std::to_string(placement->node_count) + " nodes; only the first is kept");
     }
+    const std::size_t first = builder_.model.positions.size();
+    const std::size_t triangles_before = builder_.triangles_left();
+    read_primitives(index, places.empty() ? nullptr : &places.front());
+    const auto added = std::span(builder_.model.positions).subspan(first);
+    MeshSize& size = sizes_[index];
+    size = {added.size(), triangles_before - builder_.triangles_left(), {}};
+    for (const glm::vec3& position : added) size.box.add(glm::dvec3(position));
+    if (!places.empty()) scene_box_.add(size.box);
+  }
+
+  /// The other places of meshes that are in several nodes, such as the second eye. Their vertices follow those of all
+  /// meshes, so that no vertex number depends on them.
+  void read_further_places() {
+    for (std::size_t mesh = 0; !document_.failed() && mesh < placements_.size(); ++mesh) {
+      const auto& [places, count] = placements_[mesh];
+      std::size_t kept = std::min<std::size_t>(places.size(), 1);
+      for (std::size_t i = 1; !document_.failed() && i < places.size(); ++i) {
+        if (!belongs_to_head(mesh, places[i]) || !has_room_for(sizes_[mesh])) continue;
+        read_primitives(mesh, &places[i]);
+        ++kept;
+      }
+      if (kept == count) continue;
+      builder_.warn("mesh " + std::to_string(mesh) + " " + shown_name(mesh) + " is in " + std::to_string(count) +
+                    " nodes; only " + (kept == 1 ? "the first is kept" : std::to_string(kept) + " are kept"));
+    }
+  }
+
+  /// Whether the middle of a mesh in this place lies within the box of all meshes in their first places, or close
+  /// beside it, as the other ear does. That of a second head, which stands beside this one, does not.
+  [[nodiscard]] bool belongs_to_head(std::size_t mesh, const MeshPlacement& place) const {
+    const MeshPlacement& first = placements_[mesh].kept.front();
+    if (first.joints || place.joints) return false;  // no matrix tells where
+    constexpr double margin = 0.1;
+    const glm::dvec4 middle((sizes_[mesh].box.low + sizes_[mesh].box.high) / 2.0, 1.0);
+    const glm::dvec3 there(place.to_world * glm::inverse(first.to_world) * middle);
+    const glm::dvec3 beside = margin * (scene_box_.high - scene_box_.low);
+    return glm::all(glm::greaterThanEqual(there, scene_box_.low - beside)) &&
+           glm::all(glm::lessThanEqual(there, scene_box_.high + beside));
+  }
+
+  struct Box {
+    glm::dvec3 low{std::numeric_limits<double>::infinity()};
+    glm::dvec3 high{-std::numeric_limits<double>::infinity()};
+
+    void add(const glm::dvec3& place) {
+      low = glm::min(low, place);
+      high = glm::max(high, place);
+    }
+    void add(const Box& other) {
+      low = glm::min(low, other.low);
+      high = glm::max(high, other.high);
+    }
+  };
+
+  /// Of a mesh in its first place.
+  struct MeshSize {
+    std::size_t vertices = 0;
+    std::size_t triangles = 0;  ///< omitted ones count
+    Box box;
+  };
+
+  [[nodiscard]] bool has_room_for(const MeshSize& size) const {
+    return size.vertices <= builder_.limits().max_vertices - builder_.model.positions.size() &&
+           size.triangles < builder_.triangles_left();
+  }
+
+  [[nodiscard]] std::string shown_name(std::size_t mesh) { return shown(name_of(document_.item("meshes", mesh))); }
+
+  /// Truncated, because every primitive keeps a copy.
+  static std::string name_of(const JsonCursor& mesh) { return printable(mesh.text_or("name", "")); }
+
+  /// A null placement reads vertices alone.
+  void read_primitives(std::size_t index, const MeshPlacement* placement) {
+    const JsonCursor mesh = document_.item("meshes", index);
+    const std::string name = name_of(mesh);
     const JsonCursor primitives = mesh.member("primitives");
     for (std::size_t i = 0; !document_.failed() && i < primitives.size(); ++i) {
       read_primitive(mesh, primitives.element(i), name, placement);
@@ -167,7 +245,7 @@ class GltfReader {
   }
 
   void read_primitive(const JsonCursor& mesh, const JsonCursor& primitive, const std::string& name,
-                      const std::optional<MeshPlacement>& placement) {
+                      const MeshPlacement* placement) {
     const PrimitiveData data(document_, primitive, builder_.limits());
     if (document_.failed()) return;
     if (!data.has("POSITION")) {
@@ -184,7 +262,7 @@ class GltfReader {
 
     const auto first = static_cast<std::uint32_t>(builder_.model.positions.size());
     const std::vector<float> positions = data.floats("POSITION", 3, count);
-    VertexTransform transform(placement ? &*placement : nullptr);
+    VertexTransform transform(placement);
     for (int set = 0; transform.wants_joints() && set < 4; ++set) {
       const std::string joints = "JOINTS_" + std::to_string(set);
       const std::string weights = "WEIGHTS_" + std::to_string(set);
@@ -202,7 +280,7 @@ class GltfReader {
     }
     const bool has_uvs = read_uvs(data, material, count);
     const bool has_normals = read_normals(data, transform, count);
-    if (document_.failed() || !placement) return;
+    if (document_.failed() || placement == nullptr) return;
     morph_targets_.read(mesh, primitive, first, count, transform);
 
     builder_.begin_primitive(name, material ? static_cast<int>(*material) : -1);
@@ -294,7 +372,9 @@ class GltfReader {
   MorphTargets morph_targets_;
   std::vector<UvSource> uv_sources_;
   bool has_colors_ = false;
-  std::vector<std::optional<MeshPlacement>> placements_;
+  std::vector<MeshPlacements> placements_;  ///< per mesh
+  std::vector<MeshSize> sizes_;             ///< per mesh
+  Box scene_box_;                           ///< of all meshes in their first places
 };
 
 Result<Model> read_document(std::string_view text, std::span<const std::uint8_t> binary,

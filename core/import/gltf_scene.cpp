@@ -103,14 +103,27 @@ void apply(const SkinPose& pose, MeshPlacement& placement) {
   }
 }
 
+/// A skin places its mesh, wherever the node is: two nodes with one skin are one place.
+bool is_same_place(const MeshPlacement& a, const MeshPlacement& b) {
+  return a.skin == b.skin && (a.skin || nearly_equal(a.to_world, b.to_world));
+}
+
+void add(MeshPlacement placement, MeshPlacements& placements) {
+  for (const MeshPlacement& other : placements.kept) {
+    if (is_same_place(placement, other)) return;
+  }
+  ++placements.count;
+  if (placements.kept.size() < MeshPlacements::most) placements.kept.push_back(std::move(placement));
+}
+
 }  // namespace
 
 GltfScene read_scene(GltfDocument& document) {
   const std::size_t mesh_count = document.count("meshes");
   const std::size_t node_count = document.count("nodes");
-  if (node_count == 0) return {std::vector<std::optional<MeshPlacement>>(mesh_count, MeshPlacement{}), {}};
+  if (node_count == 0) return {std::vector<MeshPlacements>(mesh_count, {{MeshPlacement{}}, 1}), {}};
 
-  std::vector<std::optional<MeshPlacement>> placements(mesh_count);
+  std::vector<MeshPlacements> meshes(mesh_count);
   struct Visit {
     std::size_t node;
     glm::dmat4 parent;
@@ -131,25 +144,22 @@ GltfScene read_scene(GltfDocument& document) {
     const glm::dmat4 to_world = parent * local_transform(node);
     world[index] = to_world;
     if (const auto mesh = node.index("mesh", mesh_count); mesh && !document.failed()) {
-      if (placements[*mesh]) {
-        ++placements[*mesh]->node_count;
-      } else {
-        placements[*mesh] =
-            MeshPlacement{to_world, to_world == glm::dmat4(1.0), 1, node.index("skin", document.count("skins")), {}};
-      }
+      add({to_world, to_world == glm::dmat4(1.0), node.index("skin", document.count("skins")), {}}, meshes[*mesh]);
     }
     for (std::size_t c = node.size_of("children"); c-- > 0;) {
       pending.push_back({node.member("children").element(c).integer(0, node_count - 1), to_world});
     }
   }
   std::map<std::size_t, SkinPose> poses;  // each computed once, for all meshes with the skin
-  for (auto& placement : placements) {
-    if (!placement || !placement->skin || document.failed()) continue;
-    const auto [pose, is_new] = poses.try_emplace(*placement->skin);
-    if (is_new) pose->second = pose_of(document, *placement->skin, world);
-    apply(pose->second, *placement);
+  for (MeshPlacements& mesh : meshes) {
+    for (MeshPlacement& placement : mesh.kept) {
+      if (!placement.skin || document.failed()) continue;
+      const auto [pose, is_new] = poses.try_emplace(*placement.skin);
+      if (is_new) pose->second = pose_of(document, *placement.skin, world);
+      apply(pose->second, placement);
+    }
   }
-  return {std::move(placements), std::move(world)};
+  return {std::move(meshes), std::move(world)};
 }
 
 }  // namespace semblante::import

@@ -9,6 +9,8 @@ namespace {
 /// Inverse bind matrices have the precision of float32, and so have their products.
 constexpr double tolerance = 1e-5;
 
+}  // namespace
+
 bool nearly_equal(const glm::dmat4& a, const glm::dmat4& b) {
   for (int column = 0; column < 4; ++column) {
     for (int row = 0; row < 4; ++row) {
@@ -19,8 +21,6 @@ bool nearly_equal(const glm::dmat4& a, const glm::dmat4& b) {
   }
   return true;
 }
-
-}  // namespace
 
 std::vector<glm::dmat4> joint_matrices(GltfDocument& document, std::size_t skin,
                                        std::span<const std::optional<glm::dmat4>> world) {

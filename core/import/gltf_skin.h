@@ -16,6 +16,9 @@ namespace semblante::import {
 std::vector<glm::dmat4> joint_matrices(GltfDocument& document, std::size_t skin,
                                        std::span<const std::optional<glm::dmat4>> world);
 
+/// Equal up to float32 rounding.
+bool nearly_equal(const glm::dmat4& a, const glm::dmat4& b);
+
 /// The matrix if all are equal up to float32 rounding (exactly the identity if close to it); nullopt if they differ.
 /// Most heads are saved in their bind pose, in which a skin has no effect.
 std::optional<glm::dmat4> common_matrix(std::span<const glm::dmat4> matrices);

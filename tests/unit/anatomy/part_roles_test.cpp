@@ -420,5 +420,23 @@ TEST(RoleByName, NamesInUse_SayWhatTheySay) {
   }
 }
 
+TEST(RoleByName, OneNameOnBothSides_IsOfTheEyeWhereItLies) {
+  std::vector<PartShape> shapes(4);
+  shapes[0].low.x = -10;
+  shapes[0].high.x = 10;
+  for (std::size_t p = 1; p < shapes.size(); ++p) shapes[p].triangles = 1;
+  shapes[1].name = shapes[2].name = "Eye.L";
+  shapes[1].center.x = 3;
+  shapes[2].center.x = -3;
+  shapes[3].name = "Eye.R";
+  shapes[3].center.x = 4;
+  std::vector<std::optional<PartRole>> roles(shapes.size());
+  roles[0] = PartRole::skin;
+  guess_roles_by_name(shapes, roles);
+  EXPECT_EQ(roles[1], PartRole::left_eye);
+  EXPECT_EQ(roles[2], PartRole::right_eye);
+  EXPECT_EQ(roles[3], PartRole::right_eye) << "the name says more than the place";
+}
+
 }  // namespace
 }  // namespace semblante

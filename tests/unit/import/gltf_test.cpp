@@ -1,9 +1,11 @@
 #include <cstring>
+#include <limits>
 
 #include <draco/compression/encode.h>
 #include <draco/mesh/triangle_soup_mesh_builder.h>
 #include <gtest/gtest.h>
 
+#include "tests/unit/import/gltf_writer.h"
 #include "tests/unit/import/test_files.h"
 
 namespace semblante::test {
@@ -298,7 +300,70 @@ TEST(Gltf, Skin_InItsBindPose_LeavesEveryBit) {
   EXPECT_EQ(model->positions, (std::vector<glm::vec3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}));
 }
 
-TEST(Gltf, MeshInTwoNodes_StandsWhereTheFirstPutsIt_WithAWarning) {
+/// A quad as the face, and a smaller one that nodes of their own show as its eyes.
+GltfWriter face_with_eyes(const nlohmann::json& eyes) {
+  GltfWriter writer;
+  auto& json = writer.json;
+  json["meshes"] = nlohmann::json::array();
+  for (const float size : {0.25F, 8.0F}) {
+    nlohmann::json primitive = {{"attributes", nlohmann::json::object()}};
+    primitive["attributes"]["POSITION"] = writer.floats({0, 0, 0, size, 0, 0, size, size, 0, 0, size, 0}, "VEC3");
+    primitive["indices"] = writer.indices({0, 1, 2, 0, 2, 3});
+    json["meshes"].push_back({{"primitives", {primitive}}});
+  }
+  json["nodes"] = {{{"mesh", 1}}};
+  json["scenes"][0]["nodes"] = {0};
+  for (const auto& eye : eyes) {
+    json["scenes"][0]["nodes"].push_back(json["nodes"].size());
+    json["nodes"].push_back(eye);
+  }
+  return writer;
+}
+
+nlohmann::json eye_at(double x) { return {{"mesh", 0}, {"translation", {x, 4, 0}}}; }
+
+TEST(Gltf, MeshInTwoNodes_StandsInBoth_AfterTheVerticesOfAllMeshes) {
+  const auto model =
+      face_with_eyes({eye_at(2), {{"mesh", 0}, {"translation", {6, 4, 0}}, {"scale", {-1, 1, 1}}}}).import();
+  ASSERT_TRUE(model) << model.error().message;
+  ASSERT_EQ(model->positions.size(), 12U);
+  EXPECT_EQ(model->positions[0], glm::vec3(2, 4, 0)) << "the first place has the numbers of the file";
+  EXPECT_EQ(model->positions[6], glm::vec3(8, 8, 0)) << "the face";
+  EXPECT_EQ(model->positions[9], glm::vec3(5.75F, 4, 0)) << "the second, mirrored";
+  EXPECT_EQ(model->triangles[4], (Triangle{8, 10, 9})) << "its outside stays out";
+  EXPECT_TRUE(model->warnings.empty());
+}
+
+TEST(Gltf, MeshInTwoNodes_ThatAreOnePlace_StandsOnce) {
+  const auto model = face_with_eyes({eye_at(2), eye_at(2)}).import();
+  ASSERT_TRUE(model) << model.error().message;
+  EXPECT_EQ(model->positions.size(), 8U);
+  EXPECT_TRUE(model->warnings.empty());
+}
+
+TEST(Gltf, MeshInManyNodes_StandsInEightOfThem_WithAWarning) {
+  auto eyes = nlohmann::json::array();
+  for (int i = 0; i < 12; ++i) eyes.push_back(eye_at(0.5 * i));
+  const auto model = face_with_eyes(eyes).import();
+  ASSERT_TRUE(model) << model.error().message;
+  EXPECT_EQ(model->positions.size(), 4U + 8 * 4);
+  EXPECT_EQ(model->warnings, std::vector<std::string>{"mesh 0 '' is in 12 nodes; only 8 are kept"});
+}
+
+TEST(Gltf, MeshInTwoNodes_BeyondALimit_StandsInTheFirst_WithAWarning) {
+  ImportLimits limits;
+  limits.max_vertices = 11;
+  const auto vertices = face_with_eyes({eye_at(2), eye_at(6)}).import(limits);
+  ASSERT_TRUE(vertices) << vertices.error().message;
+  EXPECT_EQ(vertices->positions.size(), 8U);
+  limits = {};
+  limits.max_triangles = 5;
+  const auto triangles = face_with_eyes({eye_at(2), eye_at(6)}).import(limits);
+  ASSERT_TRUE(triangles) << triangles.error().message;
+  EXPECT_EQ(triangles->warnings, std::vector<std::string>{"mesh 0 '' is in 2 nodes; only the first is kept"});
+}
+
+TEST(Gltf, MeshInTwoNodes_OfTwoHeads_StandsWhereTheFirstPutsIt_WithAWarning) {
   std::string json = replaced(quad_gltf_json(), R"([{"mesh":0}])",
                               R"([{"mesh":0,"translation":[5,0,0]},{"mesh":0,"translation":[9,0,0]}])");
   json = replaced(json, R"([{"nodes":[0]}])", R"([{"nodes":[0,1]}])");
