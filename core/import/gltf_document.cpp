@@ -264,11 +264,15 @@ GltfDocument::Elements GltfDocument::elements(const JsonCursor& where, std::size
 }
 
 bool GltfDocument::read_row(const JsonCursor& where, const Elements& elements, std::size_t row,
-                            const std::uint8_t* from, float* to) {
+                            const std::uint8_t* from, float* to, NotFinite not_finite) {
   const std::size_t component_size = elements.size / elements.components;
   for (std::size_t c = 0; c < elements.components; ++c) {
     to[c] = to_float(from + c * component_size, elements.type, elements.normalized);
     if (!std::isfinite(to[c])) {
+      if (not_finite == NotFinite::zero) {
+        std::fill_n(to, elements.components, 0.0F);
+        return true;
+      }
       where.fail(ErrorCode::not_finite, "element " + std::to_string(row) + " is not a finite number");
       return false;
     }
@@ -276,18 +280,19 @@ bool GltfDocument::read_row(const JsonCursor& where, const Elements& elements, s
   return true;
 }
 
-std::vector<float> GltfDocument::floats(std::size_t accessor, std::size_t components, std::size_t count) {
+std::vector<float> GltfDocument::floats(std::size_t accessor, std::size_t components, std::size_t count,
+                                        NotFinite not_finite) {
   const JsonCursor where = item("accessors", accessor);
   const Elements source = elements(where, components, count);
   if (failed()) return {};
   std::vector<float> values(count * components, 0.0F);
   for (std::size_t i = 0; source.has_view && i < count; ++i) {
     const std::uint8_t* const from = source.layout.bytes.data() + i * source.layout.stride;
-    if (!read_row(where, source, i, from, values.data() + i * components)) return {};
+    if (!read_row(where, source, i, from, values.data() + i * components, not_finite)) return {};
   }
   if (where.has("sparse")) {
     for_each_sparse(where, count, source.size, [&](std::size_t index, const std::uint8_t* from) {
-      read_row(where, source, index, from, values.data() + index * components);
+      read_row(where, source, index, from, values.data() + index * components, not_finite);
     });
   }
   return failed() ? std::vector<float>{} : values;

@@ -46,8 +46,11 @@ class GltfDocument {
   /// Declared number of elements of an accessor, at most `max`.
   std::size_t accessor_count(std::size_t accessor, std::size_t max);
   /// `count` rows of `components` floats, with normalized integers converted and sparse values applied. `components`
-  /// must match the accessor's type. Reports the error `mismatch` if the accessor has another count.
-  std::vector<float> floats(std::size_t accessor, std::size_t components, std::size_t count);
+  /// must match the accessor's type. Reports the error `mismatch` if the accessor has another count. A row with a value
+  /// that is not finite is an error, or zero.
+  enum class NotFinite : std::uint8_t { refused, zero };
+  std::vector<float> floats(std::size_t accessor, std::size_t components, std::size_t count,
+                            NotFinite not_finite = NotFinite::refused);
   /// The nonzero rows of a VEC3 accessor of `count` elements, in increasing order: a sparse accessor costs its listed
   /// rows, not its declared count. Each examined row decrements `budget`; if the budget is too small, it is set to 0
   /// and nothing is read.
@@ -81,7 +84,7 @@ class GltfDocument {
   std::span<const std::uint8_t> slice(const JsonCursor& where);
   Elements elements(const JsonCursor& where, std::size_t components, std::size_t count);
   static bool read_row(const JsonCursor& where, const Elements& elements, std::size_t row, const std::uint8_t* from,
-                       float* to);
+                       float* to, NotFinite not_finite = NotFinite::refused);
   Layout layout(const JsonCursor& where, std::size_t count, std::size_t element_size);
   template <class Put>
   void for_each_sparse(const JsonCursor& accessor, std::size_t count, std::size_t element_size, Put put);

@@ -86,10 +86,13 @@ class PrimitiveData {
     return accessor ? document_.accessor_count(*accessor, max) : 0;
   }
 
-  [[nodiscard]] std::vector<float> floats(const char* attribute, std::size_t components, std::size_t count) const {
+  using NotFinite = GltfDocument::NotFinite;
+
+  [[nodiscard]] std::vector<float> floats(const char* attribute, std::size_t components, std::size_t count,
+                                          NotFinite not_finite = NotFinite::refused) const {
     const auto accessor = accessor_of(attribute);
     if (!accessor) return {};
-    if (!draco_ || !in_draco(attribute)) return document_.floats(*accessor, components, count);
+    if (!draco_ || !in_draco(attribute)) return document_.floats(*accessor, components, count, not_finite);
     const bool normalized = document_.item("accessors", *accessor).boolean_or("normalized", false);
     const JsonCursor id = draco_place_->member("attributes").member(attribute);
     auto values = draco_->floats(static_cast<std::uint32_t>(id.integer(0, 0xFFFFFFFFU)), components, normalized);
@@ -305,7 +308,9 @@ class GltfReader {
 
   bool read_normals(const PrimitiveData& data, const VertexTransform& transform, std::size_t count) {
     if (!data.has("NORMAL")) return false;
-    const std::vector<float> values = data.floats("NORMAL", 3, count);
+    // Exporters write normals that are no numbers where triangles have no area: they are none, like those without
+    // length.
+    const std::vector<float> values = data.floats("NORMAL", 3, count, PrimitiveData::NotFinite::zero);
     if (document_.failed()) return false;
     pad_before(builder_.model.normals, count);
     for (std::size_t i = 0; i < count; ++i) {

@@ -151,9 +151,13 @@ class ObjReader {
     return Unit{};
   }
 
+  /// One that is no number, which exporters write for a triangle without area, is none, like one without length.
   Status read_normal(std::string_view rest) {
     std::array<float, 3> n{};
-    if (Status status = read_numbers(rest, "vn", 3, n); !status) return status;
+    if (Status status = read_numbers(rest, "vn", 3, n); !status) {
+      if (status.error().code != ErrorCode::not_finite) return status;
+      n = {};
+    }
     if (builder_.model.normals.size() >= limits_.max_vertices) return too_many("normals", limits_.max_vertices);
     builder_.model.normals.emplace_back(n[0], n[1], n[2]);
     return Unit{};

@@ -104,14 +104,20 @@ class PlyReader {
     for (std::uint64_t i = 0; i < element.count && !source_.fault(); ++i) {
       if (Status status = read_properties(element, values); !status) return status;
       std::array<float, 8> wanted{};
+      bool has_whole_normal = true;
       for (std::size_t k = 0; k < wanted.size(); ++k) {
         if (places[k] == none) continue;
         const auto value = to_float(values[places[k]], element.properties[places[k]].name);
-        if (!value) return value.error();
-        wanted[k] = *value;
+        const bool is_of_normal = k >= 3 && k < 6;
+        if (!value && !is_of_normal) return value.error();
+        // Scans have a normal that is no number where a point has no neighbours.
+        wanted[k] = value ? *value : 0.0F;
+        has_whole_normal = has_whole_normal && value;
       }
       builder_.model.positions.emplace_back(wanted[0], wanted[1], wanted[2]);
-      if (has_normals_) builder_.model.normals.emplace_back(wanted[3], wanted[4], wanted[5]);
+      if (has_normals_)
+        builder_.model.normals.push_back(has_whole_normal ? glm::vec3(wanted[3], wanted[4], wanted[5])
+                                                          : glm::vec3(0.0F));
       if (has_uvs_) builder_.model.uvs.emplace_back(wanted[6], 1.0F - wanted[7]);
     }
     return Unit{};

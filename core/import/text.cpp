@@ -19,6 +19,12 @@ bool is_tiny(std::string_view token) {
   return token.find('.') < token.find_first_of("123456789");
 }
 
+/// What is no number, or infinite, in the C library of older Windows: "1.#QNAN0", "-1.#IND", "1.#INF00".
+bool is_not_finite_on_windows(std::string_view token) {
+  if (token.starts_with('-')) token.remove_prefix(1);
+  return token.starts_with("1.#");
+}
+
 }  // namespace
 
 std::string_view as_text(std::span<const std::uint8_t> bytes) {
@@ -29,7 +35,8 @@ NumberFault parse_number(std::string_view token, float& value) {
   if (token.size() > 1 && token.front() == '+' && token[1] != '-') token.remove_prefix(1);
   double parsed = 0.0;
   const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), parsed);
-  if (error == std::errc::invalid_argument || end != token.data() + token.size()) return NumberFault::not_a_number;
+  if (error == std::errc::invalid_argument || end != token.data() + token.size())
+    return is_not_finite_on_windows(token) ? NumberFault::not_finite : NumberFault::not_a_number;
   if (error == std::errc::result_out_of_range) {
     if (!is_tiny(token)) return NumberFault::not_finite;
     parsed = 0.0;

@@ -14,7 +14,7 @@ std::string_view as_text(std::span<const std::uint8_t> bytes);
 enum class NumberFault { none, not_a_number, not_finite };
 
 /// Parses a token as one decimal number, independent of the locale. Underflow gives zero; overflow of float32, nan and
-/// inf are not_finite.
+/// inf are not_finite, also as older Windows writes them ("1.#QNAN0").
 NumberFault parse_number(std::string_view token, float& value);
 
 /// The next run of characters other than blanks; empty at the end. Advances `rest`.

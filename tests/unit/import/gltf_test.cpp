@@ -374,6 +374,17 @@ TEST(Gltf, MeshInTwoNodes_OfTwoHeads_StandsWhereTheFirstPutsIt_WithAWarning) {
   EXPECT_EQ(model->warnings.size(), 1U);
 }
 
+TEST(Gltf, NormalThatIsNoNumber_IsNone) {
+  GltfWriter writer;
+  writer.add_quad();
+  constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+  writer.primitive()["attributes"]["NORMAL"] = writer.floats({0, 0, 1, 0, nan, 1, 0, 0, 1, 0, 0, 1}, "VEC3");
+  const auto model = writer.import();
+  ASSERT_TRUE(model) << model.error().message;
+  EXPECT_EQ(model->normal_triangles, (std::vector<Triangle>{{0, Model::no_index, 2}, {0, 2, 3}}));
+  for (const glm::vec3& normal : model->normals) EXPECT_EQ(normal, glm::vec3(0, 0, 1));
+}
+
 TEST(Gltf, MeshOutsideTheScene_KeepsItsNumbers_ButIsNotDrawn) {
   const std::string primitive = R"({"attributes":{"POSITION":0},"indices":2})";
   const std::string json =

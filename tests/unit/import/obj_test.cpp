@@ -43,7 +43,8 @@ const InvalidObjFile invalid_objs[] = {
     {"PositionIsBeyondDouble", "v 1e999 0 0\n", ErrorCode::not_finite, "line 1"},
     {"PositionIsBeyondAnyUnit", "v 1e20 0 0\nv 0 1 0\nv 1 0 0\nf 1 2 3\n", ErrorCode::out_of_range, "vertex 0"},
     {"UvIsNaN", "vt nan 0\n", ErrorCode::not_finite, "line 1"},
-    {"NormalIsNaN", "vn 0 0 nan\n", ErrorCode::not_finite, "line 1"},
+    {"PositionIsNaNOfOldWindows", "v 0 1.#QNAN0 0\n", ErrorCode::not_finite, "line 1"},
+    {"NormalIsText", "vn 0 0 up\n", ErrorCode::malformed, "line 1"},
     {"FaceOfText", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf a b c\n", ErrorCode::malformed, "line 4"},
     {"FaceWithEmptyIndex", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 /1\n", ErrorCode::malformed, "line 4"},
     {"FaceWithFraction", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3.5\n", ErrorCode::malformed, "line 4"},
@@ -64,6 +65,16 @@ TEST(Obj, ZeroBytes_AreRefused_AsNotText) {
   const auto model = import_model(bytes, ModelFormat::obj);
   ASSERT_FALSE(model);
   EXPECT_EQ(static_cast<int>(model.error().code), static_cast<int>(ErrorCode::malformed));
+}
+
+TEST(Obj, NormalThatIsNoNumber_IsNone) {
+  for (const char* const no_number : {"nan nan nan", "1 -nan(ind) 0", "1 inf 0", "1.#QNAN0 -1.#IND00 1.#INF"}) {
+    const std::string text =
+        std::string("v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nvn ") + no_number + "\nf 1//1 2//2 3//1\n";
+    const auto model = import_model(to_bytes(text), ModelFormat::obj);
+    ASSERT_TRUE(model) << model.error().message;
+    EXPECT_EQ(model->normal_triangles, (std::vector<Triangle>{{0, Model::no_index, 0}})) << no_number;
+  }
 }
 
 TEST(Obj, EverythingWeRead_ComesOutAsWritten) {

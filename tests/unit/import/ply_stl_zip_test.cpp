@@ -178,6 +178,18 @@ TEST(PlyStrips, MoreTrianglesThanTheLimit_AreRefused) {
   EXPECT_EQ(static_cast<int>(model.error().code), static_cast<int>(ErrorCode::too_large));
 }
 
+TEST(Ply, NormalThatIsNoNumber_IsNone) {
+  const auto model =
+      import_model(to_bytes("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                            "property float z\nproperty float nx\nproperty float ny\nproperty float nz\n"
+                            "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                            "0 0 0 0 0 2\n1 0 0 nan nan nan\n0 1 0 1 -nan 1e99\n3 0 1 2\n"),
+                   ModelFormat::ply);
+  ASSERT_TRUE(model) << model.error().message;
+  EXPECT_EQ(model->normal_triangles, (std::vector<Triangle>{{0, Model::no_index, Model::no_index}}));
+  EXPECT_EQ(model->normals.front(), glm::vec3(0, 0, 1));
+}
+
 TEST(Ply, BinaryPosition_ThatIsNaN_IsRefused) {
   Packer nan;
   nan.put(std::bit_cast<float>(0x7FC00000U));
