@@ -50,6 +50,11 @@ std::optional<std::string> find_entry(const std::vector<std::string>& names, con
   return found;
 }
 
+/// What macOS keeps beside a file: "__MACOSX/a/._head.obj" in its own zips, "a/._head.obj" on a disk of another system.
+bool is_resource_fork(std::string_view name) {
+  return name.starts_with("__MACOSX/") || name.substr(name.rfind('/') + 1).starts_with("._");  // npos + 1 is 0
+}
+
 std::string folder_of(const std::string& name) {
   return name.substr(0, name.rfind('/') == std::string::npos ? 0 : name.rfind('/') + 1);
 }
@@ -60,7 +65,7 @@ Result<Model> read_gltf_zip(std::span<const std::uint8_t> bytes, const ImportLim
   auto archive = ZipArchive::open(bytes, limits.max_file_bytes);
   if (!archive) return archive.error();
   std::vector<std::string> names = archive->names();
-  std::erase_if(names, [](const std::string& name) { return name.starts_with("__MACOSX/"); });  // resource forks
+  std::erase_if(names, is_resource_fork);
   std::optional<std::string> name;
   for (const std::string_view ending : {".gltf", ".glb", ".vrm", ".obj", ".ply", ".stl"}) {
     const auto entry = only_entry(names, ending);

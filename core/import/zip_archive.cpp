@@ -44,22 +44,25 @@ Result<ZipArchive> ZipArchive::open(std::span<const std::uint8_t> bytes, std::si
   return ZipArchive(archive, max_total_bytes);
 }
 
-std::vector<std::string> ZipArchive::names() const {
-  std::vector<std::string> names;
-  const zip_int64_t count = zip_get_num_entries(archive_.get(), 0);
+ZipArchive::ZipArchive(zip* archive, std::size_t max_total_bytes)
+    : archive_(archive), max_total_bytes_(max_total_bytes), left_(max_total_bytes) {
+  const zip_int64_t count = zip_get_num_entries(archive, 0);
   for (zip_int64_t i = 0; i < count; ++i) {
-    const char* const name = zip_get_name(archive_.get(), static_cast<zip_uint64_t>(i), ZIP_FL_ENC_GUESS);
+    const char* const name = zip_get_name(archive, static_cast<zip_uint64_t>(i), ZIP_FL_ENC_GUESS);
     if (name == nullptr || *name == '\0') continue;
-    std::string text(name);
-    if (text.back() != '/') names.push_back(std::move(text));
+    std::string path(name);
+    // The format has slashes, but some programs of Windows write its own.
+    std::replace(path.begin(), path.end(), '\\', '/');
+    if (path.back() == '/') continue;
+    if (entries_.try_emplace(path, static_cast<std::uint64_t>(i)).second) names_.push_back(std::move(path));
   }
-  return names;
 }
 
 Result<std::vector<std::uint8_t>> ZipArchive::read(const std::string& name, std::size_t max_bytes) {
-  const zip_int64_t found = zip_name_locate(archive_.get(), name.c_str(), ZIP_FL_ENC_GUESS);
-  if (found < 0) return Error{ErrorCode::missing, "", "the zip has no entry " + shown(name), Advice::send_all_files};
-  const auto index = static_cast<zip_uint64_t>(found);
+  const auto found = entries_.find(name);
+  if (found == entries_.end())
+    return Error{ErrorCode::missing, "", "the zip has no entry " + shown(name), Advice::send_all_files};
+  const std::uint64_t index = found->second;
   const auto too_large = [&] {
     return Error{
         ErrorCode::too_large, "",

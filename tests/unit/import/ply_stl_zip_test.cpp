@@ -330,6 +330,19 @@ TEST(Zip, PlyAndStl_BesideOtherFiles_AreRead) {
   }
 }
 
+TEST(Zip, NamesWithBackslashes_AreThoseWithSlashes) {
+  const std::string json = replaced(quad_gltf_json(), R"({"byteLength":92})", R"({"byteLength":92,"uri":"quad.bin"})");
+  const auto model = import_model(
+      make_zip({{"head\\quad.gltf", to_bytes(json)}, {"head\\quad.bin", quad_gltf_binary()}}), ModelFormat::gltf_zip);
+  EXPECT_TRUE(model) << model.error().message;
+}
+
+TEST(Zip, ResourceForkBesideItsModel_IsNoModel) {
+  const auto model = import_model(make_zip({{"scan/._head.obj", to_bytes("x")}, {"scan/head.obj", quad_obj()}}),
+                                  ModelFormat::gltf_zip);
+  EXPECT_TRUE(model) << model.error().message;
+}
+
 TEST(Zip, WithoutAModel_NamesTheFileThatMayBeMeant) {
   const auto words = [](const char* name) {
     return import_model(make_zip({{"a.txt", to_bytes("x")}, {name, to_bytes("y")}}), ModelFormat::gltf_zip)
