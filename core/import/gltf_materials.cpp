@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/import/image_reader.h"
+#include "core/import/image_size.h"
 #include "core/import/limits.h"
 #include "core/import/text.h"
 
@@ -59,6 +60,10 @@ class MaterialReader {
                                             : Material::AlphaMode::opaque;
     material.alpha_cutoff = static_cast<float>(std::clamp(source.number_or("alphaCutoff", 0.5), 0.0, 1.0));
     material.double_sided = source.boolean_or("doubleSided", false);
+    // Exporters call materials blended that have no opacity at all.
+    if (material.alpha_mode == Material::AlphaMode::blend && material.base_color.a >= 1.0F &&
+        !has_alpha_image(material))
+      material.alpha_mode = Material::AlphaMode::opaque;
     builder_.model.materials.push_back(std::move(material));
     return uv;
   }
@@ -77,6 +82,24 @@ class MaterialReader {
       value[static_cast<int>(i)] = static_cast<float>(std::clamp(array.element(i).number(), 0.0, 1.0));
     }
     return value;
+  }
+
+  /// Scans without shading are written as a black surface that emits its picture.
+  void read_emission(const JsonCursor& source, Material& material, UvSource& uv) {
+    const bool is_black = glm::vec3(material.base_color) == glm::vec3(0.0F);
+    if (!is_black || !source.has("emissiveTexture")) return;
+    const glm::vec3 emitted = color<3>(source, "emissiveFactor", 0.0F);
+    if (emitted == glm::vec3(0.0F)) return;
+    material.base_color = glm::vec4(emitted, material.base_color.a);
+    material.base_color_image = image_of(source, "emissiveTexture", &uv);
+    material.is_color_lost = material.base_color_image < 0;
+    material.metallic = 0.0F;
+    material.roughness = 1.0F;
+  }
+
+  [[nodiscard]] bool has_alpha_image(const Material& material) const {
+    return material.base_color_image >= 0 &&
+           has_alpha(builder_.model.images[static_cast<std::size_t>(material.base_color_image)].bytes);
   }
 
   static void read_transform(const JsonCursor& transform, UvSource& uv) {

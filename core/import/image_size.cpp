@@ -61,4 +61,21 @@ std::optional<ImageSize> declared_size(Bytes bytes) {
   return std::nullopt;
 }
 
+bool has_alpha(Bytes bytes) {
+  if (!size_of_png(bytes)) return false;
+  constexpr std::size_t color_type_at = 25;
+  constexpr std::uint8_t alpha_bit = 4;
+  if (bytes.size() > color_type_at && (bytes[color_type_at] & alpha_bit) != 0) return true;
+  // A chunk before the first of pixels may name transparent colours (W3C PNG, 11.3.1.1).
+  constexpr std::size_t signature = 8, frame = 12, type_in = 4;
+  for (std::size_t at = signature; bytes.size() - at >= frame;) {
+    const std::string_view type = as_text(bytes.subspan(at + type_in, 4));
+    if (type == "tRNS") return true;
+    const std::size_t length = number(bytes.subspan(at, 4));
+    if (type == "IDAT" || length > bytes.size() - at - frame) return false;
+    at += frame + length;
+  }
+  return false;
+}
+
 }  // namespace semblante::import

@@ -16,4 +16,7 @@ struct ImageSize {
 /// image without a complete header. Nothing is decoded.
 std::optional<ImageSize> declared_size(std::span<const std::uint8_t> bytes);
 
+/// Whether the image is a PNG with opacity: a channel of it, or colours that are transparent.
+bool has_alpha(std::span<const std::uint8_t> bytes);
+
 }  // namespace semblante::import

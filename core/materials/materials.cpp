@@ -10,12 +10,38 @@ namespace {
 
 constexpr std::size_t max_materials = 255;
 
+/// Skin, teeth and eyes hide what lies behind them. A viewer does not sort the triangles of a blended material, so that
+/// the back of the head would show through its face.
+bool is_solid(const Material& material, Plain plain) {
+  switch (plain) {
+    case Plain::skin:
+      return true;
+    case Plain::sclera:
+    case Plain::iris:
+    case Plain::pupil:
+    case Plain::teeth:
+    case Plain::mouth:
+      return material.base_color.a >= 1.0F;  // a film over an eye is meant to be seen through
+    default:
+      return false;
+  }
+}
+
+/// The material with the holes of its image, and nothing half seen. Many exporters call every material blended whose
+/// image has a channel of opacity, and some write the opacity of a material as its transparency.
+Material solid(Material material) {
+  material.alpha_mode = material.base_color_image < 0 ? Material::AlphaMode::opaque : Material::AlphaMode::mask;
+  material.base_color.a = 1.0F;
+  return material;
+}
+
 }  // namespace
 
 MaterialAssignment assign_materials(const Model& model, const Surface& surface, std::span<const Part> parts) {
   MaterialAssignment out;
   out.of_triangle.resize(model.triangles.size());
-  // Numbered in order of first use, so that unused materials are omitted. Negative keys are the plain materials.
+  // Numbered in order of first use, so that unused materials are omitted. Negative keys are the plain materials,
+  // those from the number of the model's on its solid ones.
   std::map<int, std::uint8_t> number_of;
   const auto number_for = [&](int key, const Material& material) {
     const auto known = number_of.find(key);
@@ -27,7 +53,9 @@ MaterialAssignment assign_materials(const Model& model, const Surface& surface, 
     const Material* const own = material_of(model, primitive);
     for (std::size_t t = primitive.first_triangle; t < std::size_t{primitive.first_triangle} + primitive.triangle_count;
          ++t) {
-      if (own != nullptr && !says_nothing(*own)) {
+      const bool has_look = own != nullptr && !says_nothing(*own);
+      const bool is_blended = has_look && own->alpha_mode == Material::AlphaMode::blend;
+      if (has_look && (!is_blended || parts.empty())) {
         out.of_triangle[t] = number_for(primitive.material, *own);
         continue;
       }
@@ -35,7 +63,12 @@ MaterialAssignment assign_materials(const Model& model, const Surface& surface, 
       const PartRole role = part.value() < parts.size() ? parts[part.value()].role : PartRole::skin;
       const Plain plain =
           plain_of(own != nullptr ? std::string_view(own->name) : std::string_view(), primitive.name, role);
-      out.of_triangle[t] = number_for(-1 - static_cast<int>(plain), plain_material(plain));
+      if (!has_look)
+        out.of_triangle[t] = number_for(-1 - static_cast<int>(plain), plain_material(plain));
+      else if (is_solid(*own, plain))
+        out.of_triangle[t] = number_for(primitive.material + static_cast<int>(model.materials.size()), solid(*own));
+      else
+        out.of_triangle[t] = number_for(primitive.material, *own);
     }
   }
   return out;

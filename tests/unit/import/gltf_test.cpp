@@ -374,6 +374,49 @@ TEST(Gltf, MeshInTwoNodes_OfTwoHeads_StandsWhereTheFirstPutsIt_WithAWarning) {
   EXPECT_EQ(model->warnings.size(), 1U);
 }
 
+/// A PNG of this type of colours, up to its pixels, with the chunk tRNS if it has one.
+Bytes png_with(std::uint8_t color_type, bool has_transparent_colors) {
+  Packer rest(std::endian::big);
+  rest.put(std::uint8_t{8}).put(color_type).put(std::uint8_t{0}).put(std::uint8_t{0}).put(std::uint8_t{0});
+  rest.put(std::uint32_t{0});  // the checksum
+  for (const std::string_view chunk : {"pHYs", has_transparent_colors ? "tRNS" : "IDAT"}) {
+    rest.put(std::uint32_t{1});
+    for (const char letter : chunk) rest.put(letter);
+    rest.put(std::uint8_t{0}).put(std::uint32_t{0});
+  }
+  Bytes png = png_of(4, 4);
+  png.insert(png.end(), rest.bytes.begin(), rest.bytes.end());
+  return png;
+}
+
+TEST(Gltf, BlendedMaterial_WithoutAnyOpacity_IsOpaque) {
+  using Mode = Material::AlphaMode;
+  constexpr std::uint8_t rgb = 2, palette = 3, gray_alpha = 4, rgba = 6;
+  const auto mode = [](double factor, const Bytes& image) {
+    GltfWriter writer;
+    writer.add_quad();
+    writer.primitive()["material"] = 0;
+    nlohmann::json pbr = {{"baseColorFactor", {1, 1, 1, factor}}};
+    if (!image.empty()) {
+      writer.json["images"] = {{{"bufferView", writer.view(image)}}};
+      writer.json["textures"] = {{{"source", 0}}};
+      pbr["baseColorTexture"]["index"] = 0;
+    }
+    writer.json["materials"] = {{{"alphaMode", "BLEND"}, {"pbrMetallicRoughness", pbr}}};
+    const auto model = writer.import();
+    EXPECT_TRUE(model && model->warnings.empty());
+    return model->materials[0].alpha_mode;
+  };
+  EXPECT_EQ(mode(1.0, {}), Mode::opaque);
+  EXPECT_EQ(mode(0.5, {}), Mode::blend);
+  EXPECT_EQ(mode(1.0, png_with(rgb, false)), Mode::opaque);
+  EXPECT_EQ(mode(0.5, png_with(rgb, false)), Mode::blend);
+  EXPECT_EQ(mode(1.0, png_with(palette, false)), Mode::opaque);
+  for (const Bytes& image :
+       {png_with(palette, true), png_with(rgb, true), png_with(gray_alpha, false), png_with(rgba, false)})
+    EXPECT_EQ(mode(1.0, image), Mode::blend);
+}
+
 TEST(Gltf, NormalThatIsNoNumber_IsNone) {
   GltfWriter writer;
   writer.add_quad();

@@ -127,6 +127,55 @@ TEST(Materials, BlankOnes_AreChosenByNameThenByRole) {
   EXPECT_EQ(assigned.materials[assigned.of_triangle.back()].name, "green") << "what the file says is kept";
 }
 
+TEST(Materials, BlendedSkinTeethAndEyes_AreMasks_ButNotWhatIsSeenThrough) {
+  using Mode = Material::AlphaMode;
+  Model model = make_model();
+  const Surface surface = build_surface(model);
+  std::vector<Part> parts(surface.part_count());
+  model.materials.push_back({});
+  model.primitives[0].material = static_cast<int>(model.materials.size()) - 1;
+  const auto look = [&](const char* name, PartRole role, float alpha, int image) {
+    Material& material = model.materials.back();
+    material.name = name;
+    material.base_color = {0.8F, 0.5F, 0.4F, alpha};
+    material.base_color_image = image;
+    material.alpha_mode = Mode::blend;
+    parts[0].role = role;
+    return assign_materials(model, surface, parts).materials[0];
+  };
+  EXPECT_EQ(look("Material.001", PartRole::skin, 1.0F, 0).alpha_mode, Mode::mask);
+  EXPECT_EQ(look("Material.001", PartRole::skin, 1.0F, -1).alpha_mode, Mode::opaque);
+  EXPECT_EQ(look("Material.001", PartRole::skin, 0.0F, -1).base_color.a, 1.0F) << "opacity written as transparency";
+  EXPECT_EQ(look("Material.001", PartRole::left_eye, 1.0F, 0).alpha_mode, Mode::mask);
+  EXPECT_EQ(look("Material.001", PartRole::lower_teeth, 1.0F, 0).alpha_mode, Mode::mask);
+  EXPECT_EQ(look("Material.001", PartRole::left_eye, 0.6F, 0).alpha_mode, Mode::blend) << "a film";
+  EXPECT_EQ(look("Cornea", PartRole::left_eye, 1.0F, 0).alpha_mode, Mode::blend);
+  EXPECT_EQ(look("Eyelashes", PartRole::skin, 1.0F, 0).alpha_mode, Mode::blend);
+  EXPECT_EQ(look("Material.001", PartRole::attached, 1.0F, 0).alpha_mode, Mode::blend);
+  EXPECT_EQ(look("Material.001", PartRole::rest, 1.0F, 0).alpha_mode, Mode::blend) << "glasses";
+}
+
+TEST(Materials, OneBlendedMaterialOfSkinAndLashes_IsTwo) {
+  Model model = make_model();
+  const Surface surface = build_surface(model);
+  std::vector<Part> parts(surface.part_count());
+  ASSERT_GT(parts.size(), 1U);
+  for (Part& part : parts) part.role = PartRole::attached;
+  parts[0].role = PartRole::skin;
+  Material atlas;
+  atlas.base_color_image = 0;
+  atlas.alpha_mode = Material::AlphaMode::blend;
+  model.materials.assign(1, atlas);
+  for (Primitive& primitive : model.primitives) primitive.material = 0;
+  const MaterialAssignment assigned = assign_materials(model, surface, parts);
+  ASSERT_EQ(assigned.materials.size(), 2U);
+  for (std::size_t t = 0; t < model.triangles.size(); ++t) {
+    const bool is_skin = surface.part_of[surface.surface_of[model.triangles[t][0]].value()] == PartId(0);
+    EXPECT_EQ(assigned.materials[assigned.of_triangle[t]].alpha_mode,
+              is_skin ? Material::AlphaMode::mask : Material::AlphaMode::blend);
+  }
+}
+
 TEST(Materials, AColourThatIsLost_IsThatOfTheRole_AndClothNeverLooksLikeSkin) {
   Model model = make_model();
   const Surface surface = build_surface(model);
