@@ -28,14 +28,14 @@ class MaterialReader {
     source.must_be_object();
     if (source.has("pbrMetallicRoughness")) {
       const JsonCursor pbr = source.member("pbrMetallicRoughness");
-      material.base_color = color(pbr, "baseColorFactor");
+      material.base_color = color<4>(pbr, "baseColorFactor");
       material.metallic = unit(pbr, "metallicFactor");
       material.roughness = unit(pbr, "roughnessFactor");
       material.base_color_image = image_of(pbr, "baseColorTexture", &uv);
       material.is_color_lost = material.base_color_image < 0 && pbr.has("baseColorTexture");
     } else if (source.has("extensions") && source.member("extensions").has("KHR_materials_pbrSpecularGlossiness")) {
       const JsonCursor old = source.member("extensions").member("KHR_materials_pbrSpecularGlossiness");
-      material.base_color = color(old, "diffuseFactor");
+      material.base_color = color<4>(old, "diffuseFactor");
       material.base_color_image = image_of(old, "diffuseTexture", &uv);
       material.is_color_lost = material.base_color_image < 0 && old.has("diffuseTexture");
       material.metallic = 0.0F;
@@ -45,6 +45,7 @@ class MaterialReader {
       material.metallic = 0.0F;
       material.roughness = 1.0F;
     }
+    if (material.base_color_image < 0 && !material.is_color_lost) read_emission(source, material, uv);
     UvSource normal_uv;
     material.normal_image = image_of(source, "normalTexture", &normal_uv);
     if (material.base_color_image < 0) uv = normal_uv;
@@ -73,12 +74,13 @@ class MaterialReader {
     return static_cast<float>(std::clamp(object.number_or(key, 1.0), 0.0, 1.0));
   }
 
-  static glm::vec4 color(const JsonCursor& object, const char* key) {
-    glm::vec4 value(1.0F);
+  template <int size>
+  static glm::vec<size, float> color(const JsonCursor& object, const char* key, float otherwise = 1.0F) {
+    glm::vec<size, float> value(otherwise);
     if (!object.has(key)) return value;
     const JsonCursor array = object.member(key);
-    if (array.size() != 4) array.fail(ErrorCode::malformed, "must have 4 numbers");
-    for (std::size_t i = 0; i < std::min<std::size_t>(array.size(), 4); ++i) {
+    if (array.size() != size) array.fail(ErrorCode::malformed, "must have " + std::to_string(size) + " numbers");
+    for (std::size_t i = 0; i < std::min<std::size_t>(array.size(), size); ++i) {
       value[static_cast<int>(i)] = static_cast<float>(std::clamp(array.element(i).number(), 0.0, 1.0));
     }
     return value;

@@ -374,6 +374,28 @@ TEST(Gltf, MeshInTwoNodes_OfTwoHeads_StandsWhereTheFirstPutsIt_WithAWarning) {
   EXPECT_EQ(model->warnings.size(), 1U);
 }
 
+TEST(Gltf, BlackMaterialThatEmitsAnImage_HasItAsItsColor) {
+  const auto material = [](const nlohmann::json& color, const nlohmann::json& emitted) {
+    GltfWriter writer;
+    writer.add_quad();
+    writer.primitive()["material"] = 0;
+    writer.json["images"] = {{{"bufferView", writer.view(png_of(4, 4))}}};
+    writer.json["textures"] = {{{"source", 0}}};
+    writer.json["materials"] = {
+        {{"pbrMetallicRoughness", {{"baseColorFactor", color}}}, {"emissiveTexture", {{"index", 0}}}}};
+    if (!emitted.is_null()) writer.json["materials"][0]["emissiveFactor"] = emitted;
+    const auto model = writer.import();
+    EXPECT_TRUE(model) << model.error().where << model.error().message;
+    return model ? model->materials[0] : Material{};
+  };
+  const Material scan = material({0, 0, 0, 1}, {1, 0.5, 1});
+  EXPECT_EQ(scan.base_color_image, 0);
+  EXPECT_EQ(scan.base_color, glm::vec4(1, 0.5F, 1, 1));
+  EXPECT_EQ(scan.metallic, 0.0F);
+  EXPECT_EQ(material({0, 0, 0, 1}, nullptr).base_color_image, -1) << "it emits nothing";
+  EXPECT_EQ(material({0.5, 0.4, 0.3, 1}, {1, 1, 1}).base_color_image, -1) << "a face with lamps";
+}
+
 /// A PNG of this type of colours, up to its pixels, with the chunk tRNS if it has one.
 Bytes png_with(std::uint8_t color_type, bool has_transparent_colors) {
   Packer rest(std::endian::big);

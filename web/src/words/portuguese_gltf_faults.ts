@@ -60,7 +60,6 @@ export const portugueseGltfFaults: Sentences = {
 
   // Scene, meshes, materials.
   'must have 3 numbers': 'deve ter 3 números',
-  'must have 4 numbers': 'deve ter 4 números',
   'must have {count} numbers': 'deve ter {count} números',
   'is too large': 'é grande demais',
   'has no attribute POSITION': 'não tem o atributo POSITION',
