@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/import/image_size.h"
 #include "core/import/limits.h"
 #include "core/import/text.h"
 
@@ -82,21 +83,25 @@ void ObjMaterials::read_line(std::string_view keyword, std::string_view rest) {
     return;
   }
   if (current_ == nullptr) return;
+  Material& material = current_->material;
   if (keyword == "Kd") {
-    for (int i = 0; i < 3; ++i) current_->base_color[i] = unit(rest, current_->base_color[i]);
+    for (int i = 0; i < 3; ++i) material.base_color[i] = unit(rest, material.base_color[i]);
   } else if (keyword == "d") {
-    current_->base_color.a = unit(rest, 1.0F);
+    material.base_color.a = unit(rest, 1.0F);
   } else if (keyword == "Tr") {
-    current_->base_color.a = 1.0F - unit(rest, 0.0F);
+    material.base_color.a = 1.0F - unit(rest, 0.0F);
   } else if (keyword == "Pr") {
-    current_->roughness = unit(rest, current_->roughness);
+    material.roughness = unit(rest, material.roughness);
   } else if (keyword == "Pm") {
-    current_->metallic = unit(rest, current_->metallic);
+    material.metallic = unit(rest, material.metallic);
   } else if (keyword == "map_Kd") {
-    current_->base_color_image = image(rest);
-    current_->is_color_lost = current_->base_color_image < 0;
+    current_->color_path = map_path(rest);
+    material.base_color_image = image(rest);
+    material.is_color_lost = material.base_color_image < 0;
+  } else if (keyword == "map_d") {
+    current_->opacity_path = map_path(rest);
   } else if (keyword == "norm") {
-    current_->normal_image = image(rest);
+    material.normal_image = image(rest);
   }
 }
 
@@ -116,15 +121,26 @@ void ObjMaterials::read_library(std::string_view name) {
   }
 }
 
-void ObjMaterials::fill(Material& material) const {
+void ObjMaterials::fill(Material& material) {
   const auto found = by_name_.find(material.name);
   if (found == by_name_.end()) return;
+  const auto& [described, color_path, opacity_path] = found->second;
   const std::string name = material.name;
-  material = found->second;
+  material = described;
   material.name = name;
   // With a texture, Kd is ignored: exporters write a value that old viewers did not multiply with the texture.
   if (material.base_color_image >= 0) material.base_color = glm::vec4(1.0F, 1.0F, 1.0F, material.base_color.a);
   if (material.base_color.a < 1.0F) material.alpha_mode = Material::AlphaMode::blend;
+  if (opacity_path.empty() || material.base_color_image < 0) return;
+  // Hair and lashes are cards: their image of colour has the opacity, and is named a second time. So is that of skin,
+  // by some exporters, so the material is a mask: what is blended hides nothing behind it.
+  const Image& image = builder_.model.images[static_cast<std::size_t>(material.base_color_image)];
+  if (opacity_path == color_path && has_alpha(image.bytes)) {
+    if (material.alpha_mode == Material::AlphaMode::opaque) material.alpha_mode = Material::AlphaMode::mask;
+  } else if (opacity_path != color_path) {
+    builder_.warn("the opacity of material " + shown(name) + " is an image of its own, " + shown(opacity_path) +
+                  ", and is omitted");
+  }
 }
 
 }  // namespace semblante::import

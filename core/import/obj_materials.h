@@ -23,9 +23,15 @@ class ObjMaterials {
   /// Reads one file of an `mtllib` line.
   void read_library(std::string_view name);
   /// Sets the properties of a material after all files are read; does nothing for a material that no file defines.
-  void fill(Material& material) const;
+  void fill(Material& material);
 
  private:
+  /// A material of a file, with the paths of its images of colour and of opacity.
+  struct Described {
+    Material material;
+    std::string color_path, opacity_path;
+  };
+
   void read_line(std::string_view keyword, std::string_view rest);
   int image(std::string_view rest);
   std::optional<std::vector<std::uint8_t>> load(std::string_view name);
@@ -33,10 +39,10 @@ class ObjMaterials {
   ModelBuilder& builder_;
   ResourceReader resources_;
   ImageReader images_;
-  std::map<std::string, Material, std::less<>> by_name_;
+  std::map<std::string, Described, std::less<>> by_name_;
   std::map<std::string, int, std::less<>> image_by_path_;
   std::size_t bytes_read_ = 0;
-  Material* current_ = nullptr;
+  Described* current_ = nullptr;
 };
 
 }  // namespace semblante::import

@@ -343,6 +343,33 @@ TEST(Zip, ResourceForkBesideItsModel_IsNoModel) {
   EXPECT_TRUE(model) << model.error().message;
 }
 
+TEST(Zip, Obj_WhoseOpacityIsThatOfItsColorImage_IsAMask) {
+  struct Case {
+    const char* lines;
+    std::uint8_t color_type;
+    Material::AlphaMode mode;
+    std::size_t warnings;
+  };
+  constexpr std::uint8_t rgb = 2;
+  constexpr std::uint8_t rgba = 6;
+  using enum Material::AlphaMode;
+  for (const Case& test :
+       {Case{"map_Kd hair.png\nmap_d -imfchan m hair.png\n", rgba, mask, 0},
+        Case{"map_Kd hair.png\nmap_d hair.png\nd 0.5\n", rgba, blend, 0},
+        Case{"map_Kd hair.png\nmap_d hair.png\n", rgb, opaque, 0}, Case{"map_Kd hair.png\n", rgba, opaque, 0},
+        Case{"map_Kd hair.png\nmap_d holes.png\n", rgba, opaque, 1}, Case{"map_d hair.png\n", rgba, opaque, 0}}) {
+    Bytes png = png_of(4, 4);
+    png.insert(png.end(), {8, test.color_type});
+    const auto model = import_model(make_zip({{"head.obj", quad_obj()},
+                                              {"quad.mtl", to_bytes(std::string("newmtl skin\n") + test.lines)},
+                                              {"hair.png", png}}),
+                                    ModelFormat::gltf_zip);
+    ASSERT_TRUE(model) << model.error().message;
+    EXPECT_EQ(model->materials[0].alpha_mode, test.mode) << test.lines;
+    EXPECT_EQ(model->warnings.size(), test.warnings) << test.lines;
+  }
+}
+
 TEST(Zip, WithoutAModel_NamesTheFileThatMayBeMeant) {
   const auto words = [](const char* name) {
     return import_model(make_zip({{"a.txt", to_bytes("x")}, {name, to_bytes("y")}}), ModelFormat::gltf_zip)

@@ -31,6 +31,8 @@ export const portugueseRemarks: Sentences = {
     'a malha {number} {name} não está em nenhum nó da cena: os seus vértices mantêm os números, os seus triângulos ficaram de fora',
   'mesh {number} {name} is in {count} nodes; only the first is kept': 'a malha {number} {name} está em {count} nós; só o primeiro foi mantido',
   'mesh {number} {name} is in {count} nodes; only {kept} are kept': 'a malha {number} {name} está em {count} nós; só {kept} foram mantidos',
+  'the opacity of material {material} is an image of its own, {image}, and is omitted':
+    'a opacidade do material {material} é uma imagem à parte, {image}, e ficou de fora',
   '{primitive} has no positions and is omitted': '{primitive} não tem posições e ficou de fora',
   '{primitive} has points or lines: its vertices keep their numbers, nothing is drawn':
     '{primitive} tem pontos ou linhas: os seus vértices mantêm os números, nada é desenhado',
