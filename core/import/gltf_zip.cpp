@@ -12,6 +12,7 @@
 #include "core/import/text.h"
 #include "core/import/zip_archive.h"
 #include "core/types/letter_case.h"
+#include "core/types/percent_decode.h"
 
 namespace semblante::import {
 namespace {
@@ -32,13 +33,9 @@ Result<std::optional<std::string>> only_entry(const std::vector<std::string>& na
   return found;
 }
 
-/// The entry for a path in a file that is in `folder`. Material files may have paths of another machine: if the path
-/// does not exist, the only entry with its file name is used.
-std::optional<std::string> find_entry(const std::vector<std::string>& names, const std::string& folder,
-                                      std::string_view path) {
-  auto resolved = resolve_below(folder, path);
-  if (resolved && std::find(names.begin(), names.end(), *resolved) != names.end()) return resolved;
-  const std::string name = lower_case(path.substr(path.find_last_of("/\\") + 1));  // npos + 1 is 0
+/// The only entry with this file name, in any folder and in capitals or not.
+std::optional<std::string> only_entry_called(const std::vector<std::string>& names, std::string_view file_name) {
+  const std::string name = lower_case(file_name);
   if (name.empty()) return std::nullopt;
   std::optional<std::string> found;
   for (const std::string& entry : names) {
@@ -48,6 +45,18 @@ std::optional<std::string> find_entry(const std::vector<std::string>& names, con
     found = entry;
   }
   return found;
+}
+
+/// The entry for a path in a file that is in `folder`. Models have paths of another machine, or names in other capitals
+/// than on a disk that does not tell them apart: if the path does not exist, the only entry with its file name is used.
+std::optional<std::string> find_entry(const std::vector<std::string>& names, const std::string& folder,
+                                      std::string_view path) {
+  auto resolved = resolve_below(folder, path);
+  if (resolved && std::find(names.begin(), names.end(), *resolved) != names.end()) return resolved;
+  const std::string_view file_name = path.substr(path.find_last_of("/\\") + 1);  // npos + 1 is 0
+  if (auto found = only_entry_called(names, file_name)) return found;
+  const auto decoded = percent_decode(file_name);
+  return decoded && *decoded != file_name ? only_entry_called(names, *decoded) : std::nullopt;
 }
 
 /// What macOS keeps beside a file: "__MACOSX/a/._head.obj" in its own zips, "a/._head.obj" on a disk of another system.
@@ -94,12 +103,13 @@ Result<Model> read_gltf_zip(std::span<const std::uint8_t> bytes, const ImportLim
                     });
   }
   const auto resources = [&](std::string_view uri, std::size_t max_bytes) -> Result<std::vector<std::uint8_t>> {
-    const auto entry = resolve_below(folder, uri);
-    if (!entry) {
+    if (const auto entry = find_entry(names, folder, uri)) return archive->read(*entry, max_bytes);
+    const auto missing = resolve_below(folder, uri);
+    if (!missing) {
       return Error{ErrorCode::unsupported, "", "refers to " + shown(uri) + ", which is outside of the zip",
                    Advice::send_all_files};
     }
-    return archive->read(*entry, max_bytes);
+    return archive->read(*missing, max_bytes);  // says that it is missing
   };
   return format == ModelFormat::gltf ? read_gltf(as_text(*model), limits, resources)
                                      : read_glb(*model, limits, resources);

@@ -10,6 +10,7 @@
 #include "core/import/obj_materials.h"
 #include "core/import/polygon.h"
 #include "core/import/text.h"
+#include "core/types/letter_case.h"
 #include "core/types/printable.h"
 
 namespace semblante::import {
@@ -83,7 +84,7 @@ class ObjReader {
     } else if (keyword == "usemtl") {
       return use_material(trimmed(rest));
     } else if (keyword == "mtllib") {
-      use_library(trimmed(rest));
+      use_libraries(trimmed(rest));
     } else if (!is_ignored(keyword) && unknown_lines_++ == 0) {
       first_unknown_ = lines_.where();
     }
@@ -244,6 +245,15 @@ class ObjReader {
       }
     }
     return Unit{};
+  }
+
+  /// One file, whose name may have blanks, or several that each end in ".mtl".
+  void use_libraries(std::string_view names) {
+    const auto is_one = [](std::string_view name) { return lower_case(name).ends_with(".mtl"); };
+    bool are_several = true;
+    for (std::string_view rest = names; are_several && !trimmed(rest).empty();) are_several = is_one(next_token(rest));
+    if (!are_several) return use_library(names);
+    for (std::string_view rest = names; !trimmed(rest).empty();) use_library(next_token(rest));
   }
 
   /// Reads a material file, if resources are available.

@@ -337,6 +337,24 @@ TEST(Zip, NamesWithBackslashes_AreThoseWithSlashes) {
   EXPECT_TRUE(model) << model.error().message;
 }
 
+TEST(Zip, Gltf_FindsItsFiles_InOtherFoldersAndCapitals) {
+  const auto read = [](const std::string& uri, const std::vector<std::pair<std::string, Bytes>>& files) {
+    auto entries = files;
+    const std::string json =
+        replaced(quad_gltf_json(), R"({"byteLength":92})", R"({"byteLength":92,"uri":")" + uri + "\"}");
+    entries.emplace_back("head/quad.gltf", to_bytes(json));
+    return import_model(make_zip(entries), ModelFormat::gltf_zip);
+  };
+  const Bytes right = quad_gltf_binary();
+  const Bytes wrong = {0};
+  EXPECT_TRUE(read("Buffers/My%20Quad.bin", {{"head/buffers/my quad.BIN", right}}));
+  EXPECT_TRUE(read("C:\\\\heads\\\\quad.bin", {{"quad.bin", right}}));
+  EXPECT_TRUE(read("quad.bin", {{"head/quad.bin", right}, {"old/quad.bin", wrong}})) << "its own path says more";
+  const auto two = read("quad.bin", {{"a/quad.bin", right}, {"b/quad.bin", right}});
+  ASSERT_FALSE(two);
+  EXPECT_EQ(two.error().message, "the zip has no entry 'head/quad.bin'");
+}
+
 TEST(Zip, ResourceForkBesideItsModel_IsNoModel) {
   const auto model = import_model(make_zip({{"scan/._head.obj", to_bytes("x")}, {"scan/head.obj", quad_obj()}}),
                                   ModelFormat::gltf_zip);
@@ -414,6 +432,18 @@ TEST(Zip, Obj_WithItsMaterialsAndImages_IsReadWhole) {
   EXPECT_EQ(model->images[0].bytes, png);
   EXPECT_EQ(model->images[0].mime_type, "image/png");
   EXPECT_EQ(model->warnings.size(), 2U) << "gone.png and the path out of the zip";
+}
+
+TEST(Zip, Obj_WithTwoMaterialFilesInALine_ReadsBoth) {
+  const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\nusemtl b\nf 3 2 1\n";
+  const auto model = import_model(make_zip({{"head.obj", to_bytes("mtllib skin.mtl  Eyes.MTL \n" + triangle)},
+                                            {"skin.mtl", to_bytes("newmtl a\nKd 1 0 0\n")},
+                                            {"eyes.mtl", to_bytes("newmtl b\nKd 0 0 1\n")}}),
+                                  ModelFormat::gltf_zip);
+  ASSERT_TRUE(model) << model.error().message;
+  EXPECT_EQ(model->materials[0].base_color, glm::vec4(1, 0, 0, 1));
+  EXPECT_EQ(model->materials[1].base_color, glm::vec4(0, 0, 1, 1));
+  EXPECT_TRUE(model->warnings.empty());
 }
 
 TEST(Zip, Obj_WithoutItsMaterialFile_IsStillAHead) {
