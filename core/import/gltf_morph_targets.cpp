@@ -1,5 +1,8 @@
 #include "core/import/gltf_morph_targets.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/import/text.h"
 #include "core/types/printable.h"
 
@@ -8,6 +11,10 @@ namespace {
 
 /// ARKit has 52 targets, a game head a few hundred.
 constexpr std::size_t max_examples = 4096;
+
+/// Maximum number of weights looked at: many nodes may show one mesh of many targets.
+constexpr std::size_t max_weights = 65536;
+constexpr double least_shown_weight = 0.01;
 
 }  // namespace
 
@@ -18,6 +25,11 @@ std::vector<std::string> MorphTargets::names_of(const JsonCursor& mesh, const Js
     if (!names.empty()) return names;
   }
   return {};
+}
+
+std::string MorphTargets::name_of(const std::vector<std::string>& names, std::size_t target) {
+  return target < names.size() && !names[target].empty() ? printable(names[target])
+                                                         : "target " + std::to_string(target);
 }
 
 Example& MorphTargets::example(const std::string& name) {
@@ -55,8 +67,7 @@ void MorphTargets::read(const JsonCursor& mesh, const JsonCursor& primitive, std
       has_warned_ = true;
       return;
     }
-    const std::string name =
-        i < names.size() && !names[i].empty() ? printable(names[i]) : "target " + std::to_string(i);
+    const std::string name = name_of(names, i);
     Example& kept = example(name);
     // If one mesh uses a name twice, a vertex would be listed twice: the first is kept.
     const bool follows = kept.vertices.empty() || kept.vertices.back() < first;
@@ -68,6 +79,31 @@ void MorphTargets::read(const JsonCursor& mesh, const JsonCursor& primitive, std
     }
     if (!follows && !rows.empty())
       builder_.warn(target.pointer() + " has the same name " + shown(name) + " as an earlier target and is omitted");
+  }
+}
+
+void MorphTargets::warn_of_shown() {
+  JsonCursor::Report ignored;
+  const JsonCursor root = document_.root(ignored);
+  const std::size_t mesh_count = root.size_of("meshes");
+  std::size_t left = max_weights;
+  for (std::size_t i = 0; i < root.size_of("nodes") && !root.failed(); ++i) {
+    const JsonCursor node = root.member("nodes").element(i);
+    const auto index = node.index("mesh", mesh_count);
+    if (!index) continue;
+    const JsonCursor mesh = root.member("meshes").element(*index);
+    if (mesh.size_of("primitives") == 0) continue;
+    const JsonCursor& owner = node.has("weights") ? node : mesh;
+    const std::size_t count = std::min(owner.size_of("weights"), left);
+    left -= count;
+    for (std::size_t target = 0; target < count; ++target) {
+      const double weight = owner.member("weights").element(target).number();
+      if (std::abs(weight) < least_shown_weight) continue;
+      const auto names = names_of(mesh, mesh.member("primitives").element(0), target + 1);
+      builder_.warn("the file shows its morph target " + shown(name_of(names, target)) + " at " +
+                    in_three_digits(weight) + "; the head is read without it");
+      return;
+    }
   }
 }
 

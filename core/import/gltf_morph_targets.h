@@ -23,10 +23,16 @@ class MorphTargets {
   void read(const JsonCursor& mesh, const JsonCursor& primitive, std::size_t first, std::size_t count,
             const VertexTransform& transform);
 
+  /// Warns if viewers of the file show a target that the head is read without: a face that was shaped by targets, or
+  /// saved within an expression.
+  void warn_of_shown();
+
  private:
   Example& example(const std::string& name);
   /// Only the first `most` names, because a hostile mesh may have a million names for each of a thousand primitives.
   static std::vector<std::string> names_of(const JsonCursor& mesh, const JsonCursor& primitive, std::size_t most);
+
+  static std::string name_of(const std::vector<std::string>& names, std::size_t target);
 
   GltfDocument& document_;
   ModelBuilder& builder_;

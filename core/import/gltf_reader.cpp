@@ -152,6 +152,7 @@ class GltfReader {
     sizes_.resize(placements_.size());
     for (std::size_t mesh = 0; !document_.failed() && mesh < placements_.size(); ++mesh) read_mesh(mesh);
     if (!document_.failed()) read_further_places();
+    if (!builder_.model.examples.empty()) morph_targets_.warn_of_shown();
     if (document_.failed()) return document_.fault();
     pad(builder_.model.uvs);
     pad(builder_.model.normals);

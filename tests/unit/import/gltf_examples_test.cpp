@@ -45,6 +45,31 @@ TEST(Examples, DenseAndSparseTargets_KeepOnlyWhatMoves_AndTheirNames) {
   EXPECT_EQ(model->examples[1].vertices, (std::vector<std::uint32_t>{1})) << "a sparse zero is no displacement";
 }
 
+TEST(Examples, TargetThatTheFileShows_IsNamedByAWarning) {
+  const auto warnings = [](auto change) {
+    GltfWriter writer;
+    writer.add_quad();
+    const auto up = writer.floats({0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0}, "VEC3");
+    writer.primitive()["targets"] = {{{"POSITION", up}}, {{"POSITION", up}}};
+    writer.json["meshes"][0]["extras"] = {{"targetNames", {"jawOpen", "Nose"}}};
+    change(writer.json);
+    const auto model = writer.import();
+    EXPECT_TRUE(model) << model.error().where << " " << model.error().message;
+    EXPECT_EQ(model->positions[2], glm::vec3(1, 1, 0));
+    return model->warnings;
+  };
+  const std::vector<std::string> nose = {"the file shows its morph target 'Nose' at 0.7; the head is read without it"};
+  EXPECT_EQ(warnings([](Json& file) { file["meshes"][0]["weights"] = {0, 0.7}; }), nose);
+  EXPECT_EQ(warnings([](Json& file) { file["nodes"][0]["weights"] = {0, 0.7}; }), nose);
+  for (const Json& none : {Json({0, 0}), Json({0, 0.001}), Json({"a", 0}), Json(7), Json::array()})
+    EXPECT_TRUE(warnings([&](Json& file) { file["meshes"][0]["weights"] = none; }).empty()) << none;
+  EXPECT_TRUE(warnings([](Json& file) {
+                file["meshes"][0]["weights"] = {1, 1};
+                file["nodes"][0]["weights"] = {0, 0};
+              }).empty())
+      << "the node's weights are those that are shown";
+}
+
 TEST(Examples, SparseRows_ReplaceDenseOnes_InAnyOrder) {
   GltfWriter writer;
   writer.add_quad();

@@ -21,6 +21,8 @@ export const portugueseRemarks: Sentences = {
   '{target} has a different number of vertices than its primitive and is omitted': '{target} não tem tantos vértices quanto a sua primitiva e ficou de fora',
   'the morph targets have more displacements than the limit; the last targets are omitted':
     'os morph targets têm mais deslocamentos do que o limite; os últimos ficaram de fora',
+  'the file shows its morph target {target} at {weight}; the head is read without it':
+    'o arquivo mostra o seu morph target {target} em {weight}; a cabeça é lida sem ele',
   '{target} has the same name {name} as an earlier target and is omitted': '{target} tem o mesmo nome {name} de um morph target anterior e ficou de fora',
   'vertex colours are omitted: the face has the colours of its materials': 'as cores de vértices ficaram de fora: o rosto tem as cores dos seus materiais',
   '{count} faces with fewer than 3 corners were omitted': '{count} faces com menos de 3 cantos ficaram de fora',
