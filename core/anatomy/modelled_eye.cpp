@@ -104,6 +104,7 @@ std::optional<ModelledEye> eye_between(const Surface& surface, std::span<const T
   // Lids that a ball goes on behind may lie as close to it as the eye of a sculpture to its ball.
   if (!is_welded && (skin.is_on_ball(lids.left.vertex) || skin.is_on_ball(lids.right.vertex))) return std::nullopt;
   ModelledEye found;
+  found.is_welded = is_welded;
   found.held = skin.inner_vertices();
   if (is_welded) leave_edges(surface, points, lids, opening.width(), found.held);
   const bool is_point_held = std::any_of(points.begin(), points.end(), [&](const SurfacePoint& p) {

@@ -31,6 +31,7 @@ struct ModelledEye {
   std::vector<RimPlace> rim;
   glm::dvec3 upper{0.0}, lower{0.0};  ///< where the eye that is seen ends, above and below, near the upper lid's point
   std::optional<Sphere> ball;         ///< empty: the eye is too flat for one
+  bool is_welded = false;             ///< a ball that goes on behind the lids and shares vertices with them
 };
 
 /// Left, right.

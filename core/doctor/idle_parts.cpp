@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <set>
 #include <span>
@@ -150,27 +151,54 @@ void find_strangers(const Subject& head, std::vector<Finding>& out) {
   tell_idle_parts(head, idle, out);
 }
 
+struct Eye {
+  PartRole role;
+  std::string_view name, pupil, faps;
+};
+constexpr std::array<Eye, 2> eyes = {Eye{PartRole::left_eye, "left", "3.5", "23, 25 and 27"},
+                                     Eye{PartRole::right_eye, "right", "3.6", "24, 26 and 28"}};
+
+Finding still_eye(const Subject& head, const Eye& eye) {
+  Finding finding;
+  finding.code = FindingCode::eye_cannot_turn;
+  finding.severity = Severity::note;
+  finding.place.points.push_back(*parse_feature_point(eye.pupil));
+  if (const FeaturePoint* const pupil = find_point(head.rig.points, eye.pupil))
+    finding.place.position = glm::dvec3(pupil->position);
+  finding.words =
+      "no part is the " + std::string(eye.name) + " eyeball, so FAPs " + std::string(eye.faps) + " have no effect";
+  finding.remedy =
+      "give the eyeball's part this role, and separate it from the skin before if both are joined; an eye painted "
+      "on the skin cannot rotate";
+  return finding;
+}
+
+/// An eyeball that a converter has welded to its lids, where it merged near vertices.
+Finding welded_eye(const Subject& head, const Eye& eye, const ModelledEye& modelled) {
+  Finding finding = still_eye(head, eye);
+  finding.code = FindingCode::eye_welded;
+  finding.severity = Severity::warning;
+  VertexSample vertices;
+  for (const SurfaceVertexId v : modelled.held) vertices.add(head.surface.file_vertex_of[v.value()]);
+  finding.place.part = head.surface.part_of[modelled.held.front().value()];
+  finding.place.vertices = std::move(vertices);
+  if (!finding.place.position) finding.place.position = 0.5 * (modelled.upper + modelled.lower);
+  finding.words = "the " + std::string(eye.name) + " eyeball is welded to the lids: it cannot turn, so FAPs " +
+                  std::string(eye.faps) +
+                  " have no effect, and lids that close over it leave thin cracks where both share vertices";
+  finding.remedy =
+      "split the vertices that the eyeball shares with the lids, or export the head without merging near vertices; "
+      "then "
+      "the eyeball is a part of its own";
+  return finding;
+}
+
 void find_still_eyes(const Subject& head, std::vector<Finding>& out) {
-  struct Eye {
-    PartRole role;
-    std::string_view name, pupil, faps;
-  };
-  for (const Eye& eye : {Eye{PartRole::left_eye, "left", "3.5", "23, 25 and 27"},
-                         Eye{PartRole::right_eye, "right", "3.6", "24, 26 and 28"}}) {
-    if (std::any_of(head.rig.parts.begin(), head.rig.parts.end(), [&](const Part& p) { return p.role == eye.role; }))
-      continue;
-    Finding finding;
-    finding.code = FindingCode::eye_cannot_turn;
-    finding.severity = Severity::note;
-    finding.place.points.push_back(*parse_feature_point(eye.pupil));
-    if (const FeaturePoint* const pupil = find_point(head.rig.points, eye.pupil))
-      finding.place.position = glm::dvec3(pupil->position);
-    finding.words =
-        "no part is the " + std::string(eye.name) + " eyeball, so FAPs " + std::string(eye.faps) + " have no effect";
-    finding.remedy =
-        "give the eyeball's part this role, and separate it from the skin before if both are joined; an eye painted "
-        "on the skin cannot rotate";
-    out.push_back(std::move(finding));
+  for (std::size_t k = 0; k < eyes.size(); ++k) {
+    const auto& parts = head.rig.parts;
+    if (std::any_of(parts.begin(), parts.end(), [&](const Part& p) { return p.role == eyes[k].role; })) continue;
+    const auto& modelled = head.modelled_eyes[k];
+    out.push_back(modelled && modelled->is_welded ? welded_eye(head, eyes[k], *modelled) : still_eye(head, eyes[k]));
   }
 }
 

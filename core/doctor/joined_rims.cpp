@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/anatomy/modelled_eye.h"
 #include "core/doctor/openings.h"
 #include "core/doctor/words.h"
 
@@ -26,8 +25,9 @@ std::optional<double> closed_share(const Subject& head, const Opening& opening) 
 }
 
 /// Whether lids of one skin close over an eye that is modelled in it: nothing is to be done then.
-bool closes_over_eye(const Subject& head, const Opening& opening, const ModelledEyes& modelled) {
-  return !opening.is_mouth && head.rig.lids[eye_of(opening)] && modelled[eye_of(opening)];
+bool closes_over_eye(const Subject& head, const Opening& opening) {
+  return !opening.is_mouth && are_shares(head.method) && head.rig.lids[eye_of(opening)] &&
+         head.modelled_eyes[eye_of(opening)];
 }
 
 /// Whether they will, as soon as their points are off the eye.
@@ -43,11 +43,8 @@ std::vector<Finding> find_joined_rims(const Subject& head) {
   std::vector<SurfacePoint> points = surface_points(head.surface, head.rig.points);
   // With a point on the other rim the path does not cross the gap.
   std::erase_if(points, [&](const SurfacePoint& p) { return is_misplaced(head.misplaced, p.id); });
-  ModelledEyes modelled;
-  if (are_shares(head.method))
-    modelled = find_modelled_eyes(head.surface, head.model.triangles, head.rig.parts, points);
   for (const Opening& opening : openings) {
-    if (closes_over_eye(head, opening, modelled) || will_close_over_eye(head, opening)) continue;
+    if (closes_over_eye(head, opening) || will_close_over_eye(head, opening)) continue;
     const std::optional<RimCrossing> crossing = shortest_crossing(head.surface, opening, points);
     if (!crossing || !(crossing->share < joined_share)) continue;
     Finding finding;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/anatomy/modelled_eye.h"
 #include "core/anatomy/points_on_eyes.h"
 #include "core/anatomy/rim_points.h"
 #include "core/doctor/face_axes.h"
@@ -21,6 +22,7 @@ struct Subject {
   FaceAxes frame;
   std::vector<MisplacedRimPoint> misplaced = {};  ///< of find_misplaced_rim_points
   std::vector<PointOnEye> on_eyes = {};           ///< of find_points_on_eyes
+  ModelledEyes modelled_eyes = {};                ///< of find_modelled_eyes, without the misplaced points
 };
 
 }  // namespace semblante

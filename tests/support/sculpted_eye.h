@@ -5,10 +5,13 @@
 #include <cstdint>
 #include <vector>
 
+#include <glm/geometric.hpp>
+
 #include "core/anatomy/point_lookup.h"
 #include "core/geometry/surface.h"
 #include "core/types/model.h"
 #include "core/types/rig.h"
+#include "tests/support/meshes.h"
 
 namespace semblante::testing {
 
@@ -70,5 +73,39 @@ struct SculptedEye {
   std::vector<Part> parts;
   std::vector<SurfacePoint> points;
 };
+
+/// The lids of `SculptedEye` around a hole, and a whole ball behind them that shares `is_welded` vertices with the
+/// lower.
+inline SculptedEye ball_behind_lids(bool is_welded) {
+  SculptedEye head(0.08);
+  Model& model = head.model;
+  const auto sheet = static_cast<std::uint32_t>(model.positions.size());
+  const auto is_eye = [&](std::uint32_t v) { return glm::length(model.positions[v]) < sculpted_radius + 1e-4; };
+  std::vector<bool> on_hole(sheet, false);
+  std::erase_if(model.triangles, [&](const Triangle& t) {
+    if (std::none_of(t.begin(), t.end(), is_eye)) return false;
+    for (const std::uint32_t v : t) on_hole[v] = on_hole[v] || !is_eye(v);
+    return true;
+  });
+  const Model ball = make_ball(glm::vec3(0.0F), static_cast<float>(sculpted_radius), 64, 32);
+  model.positions.insert(model.positions.end(), ball.positions.begin(), ball.positions.end());
+  for (Triangle t : ball.triangles) {
+    for (std::uint32_t& corner : t) {
+      const glm::vec3& p = ball.positions[corner];
+      corner += sheet;
+      if (!is_welded || p.z < 0.0F) continue;
+      for (std::uint32_t v = 0; v < sheet; ++v) {
+        if (on_hole[v] && model.positions[v].y < 0.0F && glm::distance(model.positions[v], p) < 0.1F) corner = v;
+      }
+    }
+    model.triangles.push_back(t);
+  }
+  std::vector<std::uint32_t> marked;
+  for (const SurfacePoint& p : head.points) marked.push_back(head.surface.file_vertex_of[p.vertex.value()].value());
+  head.surface = build_surface(model);
+  for (std::size_t k = 0; k < marked.size(); ++k) head.points[k].vertex = head.surface.surface_of[marked[k]];
+  head.parts.resize(head.surface.part_count(), head.parts.front());
+  return head;
+}
 
 }  // namespace semblante::testing

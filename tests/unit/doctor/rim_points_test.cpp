@@ -97,16 +97,42 @@ TEST_P(RimPoints, OnTheFoldOfALidAreMovedToItsEdgeByTheRemedy) {
   EXPECT_EQ(find_code(examine_without_weights(*head), FindingCode::point_off_lid_edge), nullptr);
 }
 
+Report examine_sculpture(const SculptedEye& sculpture) {
+  Head head;
+  head.model = sculpture.model;
+  for (const SurfacePoint& p : sculpture.points)
+    head.points.push_back({p.id, sculpture.surface.file_vertex_of[p.vertex.value()], glm::vec3(p.position)});
+  return examine_without_weights(head);
+}
+
+/// A ball behind the lids that a converter has merged with them.
+TEST(WeldedEyes, AreAWarning) {
+  const Report report = examine_sculpture(ball_behind_lids(true));
+  const Finding* const finding = find_code(report, FindingCode::eye_welded);
+  ASSERT_NE(finding, nullptr);
+  EXPECT_EQ(finding->severity, Severity::warning);
+  EXPECT_THAT(finding->words, HasSubstr("the left eyeball is welded to the lids"));
+  EXPECT_THAT(finding->words, HasSubstr("FAPs 23, 25 and 27"));
+  ASSERT_TRUE(finding->place.position.has_value());
+  EXPECT_NEAR(glm::length(*finding->place.position), sculpted_radius, 0.1 * sculpted_radius);
+  EXPECT_EQ(std::count_if(report.findings.begin(), report.findings.end(),
+                          [](const Finding& f) { return f.code == FindingCode::eye_cannot_turn; }),
+            1)
+      << "the right eye alone";
+}
+
+TEST(WeldedEyes, AreNeitherSeparateBallsNorSculptures) {
+  for (const SculptedEye& eye : {ball_behind_lids(false), SculptedEye(0.08)}) {
+    const Report report = examine_sculpture(eye);
+    EXPECT_EQ(find_code(report, FindingCode::eye_welded), nullptr);
+    EXPECT_NE(find_code(report, FindingCode::eye_cannot_turn), nullptr);
+  }
+}
+
 /// A sculpture, whose eye is one skin with its lids.
 TEST(PointsOnModelledEyes, AreMovedToTheEdgeOfTheirLidByTheRemedy) {
-  testing::SculptedEye sculpture(0.08);
-  const auto report = [&] {
-    Head head;
-    head.model = sculpture.model;
-    for (const SurfacePoint& p : sculpture.points)
-      head.points.push_back({p.id, sculpture.surface.file_vertex_of[p.vertex.value()], glm::vec3(p.position)});
-    return examine_without_weights(head);
-  };
+  SculptedEye sculpture(0.08);
+  const auto report = [&] { return examine_sculpture(sculpture); };
   EXPECT_EQ(find_code(report(), FindingCode::point_on_eye), nullptr);
   sculpture.mark("3.3", 0.0, -0.15);
   const Report before = report();

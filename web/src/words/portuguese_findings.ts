@@ -21,6 +21,8 @@ const many = (count: number, one: string, more: string): string => (count === 1 
 /** Points of the eyes have the group 3; the left ones are odd. */
 const isOfEye = (facts: FindingFacts): boolean => first(facts).startsWith('3.');
 const side = (facts: FindingFacts): string => (Number(first(facts).split('.')[1]) % 2 === 1 ? 'esquerdo' : 'direito');
+/** The FAPs that turn the eye. */
+const gaze = (facts: FindingFacts): string => (side(facts) === 'esquerdo' ? '23, 25 e 27' : '24, 26 e 28');
 const unit = ({ points }: FindingFacts): string => `A unidade que ${list(points)} medem`;
 const belongs = (point: string): string =>
   point === '3.5' ? 'no globo ocular esquerdo' : point === '3.6' ? 'no globo ocular direito' : point.startsWith('6.') ? 'na língua' : 'na pele do rosto';
@@ -147,8 +149,12 @@ export const portugueseFindings: Readonly<Record<string, Say>> = {
     'Exporte o modelo com uma pele só',
   ],
   'eye-cannot-turn': (facts) => [
-    `Nenhuma parte é o globo ocular ${side(facts)}, e os FAPs ${side(facts) === 'esquerdo' ? '23, 25 e 27' : '24, 26 e 28'} não têm efeito`,
+    `Nenhuma parte é o globo ocular ${side(facts)}, e os FAPs ${gaze(facts)} não têm efeito`,
     'Dê este papel à parte do globo ocular, e separe-a antes da pele se as duas estão unidas; um olho pintado na pele não gira',
+  ],
+  'eye-welded': (facts) => [
+    `O globo ocular ${side(facts)} está soldado às pálpebras: não gira, os FAPs ${gaze(facts)} não têm efeito, e pálpebras que se fecham sobre ele deixam fendas finas onde têm vértices em comum`,
+    'Separe os vértices que o globo ocular e as pálpebras têm em comum, ou exporte a cabeça sem unir vértices próximos; o globo ocular é então uma parte própria',
   ],
   'hole-near-points': (facts) => [`A pele tem um buraco ao lado de ${first(facts)}; a influência passa em volta dele, e o fundo aparece`, 'Feche o buraco no programa que fez o modelo'],
   'inside-out': () => [
