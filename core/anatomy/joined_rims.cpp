@@ -40,6 +40,13 @@ double way_around(const SurfacePoint& upper, const SurfacePoint& lower, const mp
   return shortest;
 }
 
+/// Whether a ball hides a place from the front.
+bool is_behind(const Sphere& ball, const glm::dvec3& place) {
+  const glm::dvec3 from = place - ball.center;
+  const double front = ball.radius * ball.radius - from.x * from.x - from.y * from.y;
+  return front > 0.0 && from.z < std::sqrt(front);
+}
+
 }  // namespace
 
 std::optional<RimCrossing> shortest_crossing(const Surface& surface, const mpeg4::Opening& opening,
@@ -59,9 +66,16 @@ std::optional<RimCrossing> shortest_crossing(const Surface& surface, const mpeg4
   return shortest;
 }
 
-bool are_joined(const Surface& surface, const mpeg4::Opening& opening, std::span<const SurfacePoint> points) {
+bool joins(const RimCrossing& crossing, const Surface& surface, const std::optional<Sphere>& ball) {
+  if (!(crossing.share < joined_share)) return false;
+  return !ball || std::none_of(crossing.way.begin(), crossing.way.end(),
+                               [&](SurfaceVertexId v) { return is_behind(*ball, surface.positions[v.value()]); });
+}
+
+bool are_joined(const Surface& surface, const mpeg4::Opening& opening, std::span<const SurfacePoint> points,
+                const std::optional<Sphere>& ball) {
   const auto crossing = shortest_crossing(surface, opening, points);
-  return crossing && crossing->share < joined_share;
+  return crossing && joins(*crossing, surface, ball);
 }
 
 double share_before_fold(const Model& model, const Rig& rig, const Heights& heights) {

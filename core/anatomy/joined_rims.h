@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/anatomy/point_lookup.h"
+#include "core/geometry/sphere_fit.h"
 #include "core/geometry/surface.h"
 #include "core/tables/openings.h"
 #include "core/types/model.h"
@@ -29,8 +30,13 @@ inline constexpr double joined_share = 0.8;
 std::optional<RimCrossing> shortest_crossing(const Surface& surface, const mpeg4::Opening& opening,
                                              std::span<const SurfacePoint> points);
 
+/// Whether a path joins the rims. One that leads behind `ball`, the eyeball, does not: the floor of a shallow socket is
+/// not seen, and folds where it may.
+bool joins(const RimCrossing& crossing, const Surface& surface, const std::optional<Sphere>& ball = std::nullopt);
+
 /// Whether the rims of an opening are one skin.
-bool are_joined(const Surface& surface, const mpeg4::Opening& opening, std::span<const SurfacePoint> points);
+bool are_joined(const Surface& surface, const mpeg4::Opening& opening, std::span<const SurfacePoint> points,
+                const std::optional<Sphere>& ball = std::nullopt);
 
 /// The vertical displacement of each feature point, model units; zero for those that do not move.
 using Heights = std::array<double, feature_point_count>;

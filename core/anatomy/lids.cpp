@@ -154,4 +154,14 @@ std::optional<Lids> find_lids(const Surface& surface, const EyeEdges& edges, con
   return lids;
 }
 
+std::optional<Sphere> hiding_ball(const Rig& rig, std::size_t eye) {
+  const PartRole role = eye == 0 ? PartRole::left_eye : PartRole::right_eye;
+  const bool is_part =
+      std::any_of(rig.parts.begin(), rig.parts.end(), [role](const Part& part) { return part.role == role; });
+  if (!is_part || !rig.lids[eye]) return std::nullopt;
+  const auto& radii = rig.lids[eye]->ball;
+  return Sphere{eye == 0 ? rig.left_eye_pivot : rig.right_eye_pivot, *std::min_element(radii.begin(), radii.end()),
+                0.0};
+}
+
 }  // namespace semblante

@@ -8,6 +8,7 @@
 
 #include "core/anatomy/lid_edge.h"
 #include "core/anatomy/modelled_eye.h"
+#include "core/geometry/sphere_fit.h"
 #include "core/geometry/surface.h"
 #include "core/types/feature_points.h"
 #include "core/types/rig.h"
@@ -22,5 +23,9 @@ inline constexpr double least_slit = 0.001;
 /// points, FAPUs, pivots and irises. `modelled`: the eye, if it is in the skin.
 std::optional<Lids> find_lids(const Surface& surface, const EyeEdges& edges, const Rig& rig, std::size_t eye,
                               const ModelledEye* modelled = nullptr);
+
+/// The eyeball, which hides what lies behind it, with its least radius about the pivot; empty if it is no part of its
+/// own, or if nothing rolls on it.
+std::optional<Sphere> hiding_ball(const Rig& rig, std::size_t eye);
 
 }  // namespace semblante

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/anatomy/lids.h"
 #include "core/doctor/openings.h"
 #include "core/doctor/words.h"
 
@@ -46,7 +47,8 @@ std::vector<Finding> find_joined_rims(const Subject& head) {
   for (const Opening& opening : openings) {
     if (closes_over_eye(head, opening) || will_close_over_eye(head, opening)) continue;
     const std::optional<RimCrossing> crossing = shortest_crossing(head.surface, opening, points);
-    if (!crossing || !(crossing->share < joined_share)) continue;
+    const auto ball = opening.is_mouth ? std::nullopt : hiding_ball(head.rig, eye_of(opening));
+    if (!crossing || !joins(*crossing, head.surface, ball)) continue;
     Finding finding;
     finding.code = opening.is_mouth ? FindingCode::lips_joined : FindingCode::lids_joined;
     finding.severity = Severity::warning;

@@ -79,7 +79,7 @@ RigidMotion rigid_motion_of(PartRole role) {
 void stop_joined_lids(const Model& model, const Surface& surface, const std::vector<SurfacePoint>& points,
                       std::size_t eye, Rig& rig) {
   const mpeg4::Opening& opening = mpeg4::lids_of(eye);
-  if (!rig.lids[eye] || !are_joined(surface, opening, points)) return;
+  if (!rig.lids[eye] || !are_joined(surface, opening, points, hiding_ball(rig, eye))) return;
   Heights heights{};
   heights[parse_feature_point(opening.upper.front())->value()] = -rig.lids[eye]->opening;
   const double least = least_slit / rig.lids[eye]->slit;

@@ -91,6 +91,14 @@ TEST(AreJoined, ASheetFromRimToRimIs) {
   EXPECT_NEAR(crossing->share, 1.0 / (std::sqrt(2.0) + 1.0), 1e-12);
   EXPECT_EQ(crossing->way.size(), 2U);
   EXPECT_TRUE(are_joined(surface, mpeg4::openings[1], points));
+
+  // A ball before the sheet hides it; one behind it, or beside the way, does not.
+  const auto with_ball = [&](const glm::dvec3& center) {
+    return are_joined(surface, mpeg4::openings[1], points, Sphere{center, 3.0, 0.0});
+  };
+  EXPECT_FALSE(with_ball({1.0, 1.5, 0.0}));
+  EXPECT_TRUE(with_ball({1.0, 1.5, -4.0}));
+  EXPECT_TRUE(with_ball({9.0, 1.5, 0.0}));
 }
 
 }  // namespace

@@ -3,7 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/anatomy/joined_rims.h"
+#include "core/anatomy/lid_edge.h"
 #include "core/parametrize/place_feature_points.h"
+#include "core/tables/openings.h"
 #include "tests/support/meshes.h"
 #include "tests/support/sample_head_model.h"
 
@@ -116,6 +119,57 @@ TEST(Parametrize, BarePoint_InfluencesNothing) {
   ASSERT_TRUE(with);
   EXPECT_EQ(with->weights.weights, without->weights.weights);
   EXPECT_EQ(with->head_pivot, glm::vec3(2, 0.5F, 0));
+}
+
+/// The sample head with a floor in the socket of its left eye, inside the ball: a step inwards from the edges of the
+/// lids, and a fan from there. So heads are made whose makers left out what the eyeball hides.
+Model with_socket_floor(Model model, const FeaturePointSet& points) {
+  const Surface surface = build_surface(model);
+  const auto edges = find_eye_edges(surface, surface_points(surface, points), 0).value();
+  const glm::vec3 middle(0.5 * (edges.upper.middle.position + edges.lower.middle.position));
+  const auto height = static_cast<float>(edges.upper.middle.position.y - edges.lower.middle.position.y);
+  const auto add_vertex = [&](const glm::vec3& at) {
+    model.positions.push_back(at);
+    return static_cast<std::uint32_t>(model.positions.size() - 1);
+  };
+  const auto add_triangle = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    const glm::vec3 u = model.positions[b] - model.positions[a];
+    const glm::vec3 v = model.positions[c] - model.positions[a];
+    model.triangles.push_back(u.x * v.y - u.y * v.x > 0.0F ? Triangle{a, b, c} : Triangle{a, c, b});
+    ++model.primitives.back().triangle_count;
+  };
+  const std::uint32_t floor = add_vertex(middle - glm::vec3(0.0F, 0.0F, 0.5F * height));
+  for (const LidEdge* const edge : {&edges.upper, &edges.lower}) {
+    for (const auto& way : edge->to_corner) {
+      std::vector<std::uint32_t> rim;
+      std::vector<std::uint32_t> step;
+      for (const SurfaceVertexId v : way) {
+        rim.push_back(surface.file_vertex_of[v.value()].value());
+        const glm::vec3 at = model.positions[rim.back()];
+        step.push_back(add_vertex({at.x, at.y + 0.05F * (middle.y - at.y), at.z - 0.3F * height}));
+      }
+      for (std::size_t k = 1; k < rim.size(); ++k) {
+        add_triangle(rim[k - 1], rim[k], step[k - 1]);
+        add_triangle(rim[k], step[k], step[k - 1]);
+        add_triangle(step[k - 1], step[k], floor);
+      }
+    }
+  }
+  return model;
+}
+
+// The floor folds where nobody sees it.
+TEST(Parametrize, LidsOverASocketWithAFloor_CloseAsThoseOverAnOpenOne) {
+  const FeaturePointSet points = testing::sample_head_points();
+  const Model model = with_socket_floor(testing::sample_head_model(), points);
+  const Surface surface = build_surface(model);
+  ASSERT_TRUE(are_joined(surface, mpeg4::lids_of(0), surface_points(surface, points)));
+  ParametrizeOptions options;
+  options.weights = WeightMethod::smooth;
+  const auto rig = parametrize(model, surface, points, options);
+  ASSERT_TRUE(rig);
+  ASSERT_TRUE(rig->lids[0] && rig->lids[1]);
+  EXPECT_NEAR(rig->lids[0]->opening, rig->lids[1]->opening, 0.02F * rig->lids[1]->opening);
 }
 
 }  // namespace
