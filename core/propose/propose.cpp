@@ -11,6 +11,7 @@
 
 #include "core/anatomy/front_points.h"
 #include "core/anatomy/joined_rims.h"
+#include "core/anatomy/lid_edge.h"
 #include "core/anatomy/mirror_plane.h"
 #include "core/anatomy/modelled_eye.h"
 #include "core/anatomy/modelled_rims.h"
@@ -57,6 +58,9 @@ double difference_between_heads(FeaturePointId id) {
   if (name == "3.13" || name == "3.14") return fold_of_lid;
   return group_of(id) == 10 ? ear : group_of(id) == 11 ? hair : 0.0;
 }
+
+/// What is so near to the line along the edge of a lid lies on it. Folds of real lids are 0.07 and more from it.
+constexpr double on_edge = 0.02;
 
 /// Of the edges at a vertex: the right place is between vertices.
 constexpr double between_vertices = 0.5;
@@ -111,6 +115,21 @@ Turn turn_of(FeaturePointId id) {
   return rim_of_point(id).opening != nullptr ? Turn::rims : Turn::open_skin;
 }
 
+struct Segment {
+  glm::dvec3 from, to;
+};
+
+double away_from(std::span<const Segment> lines, const glm::dvec3& place) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Segment& line : lines) {
+    const glm::dvec3 way = line.to - line.from;
+    const double square = glm::dot(way, way);
+    const double t = square > 0.0 ? std::clamp(glm::dot(place - line.from, way) / square, 0.0, 1.0) : 0.0;
+    least = std::min(least, glm::distance(place, line.from + t * way));
+  }
+  return least;
+}
+
 /// A position, with the surface vertex there, if any.
 struct Spot {
   glm::dvec3 place{0.0};
@@ -150,6 +169,7 @@ class Proposer {
     correct_sides();
     correct_lid_edges();
     correct_modelled_rims();
+    correct_folds();
     std::sort(proposals_.points.begin(), proposals_.points.end(),
               [](const Proposal& a, const Proposal& b) { return a.point.id < b.point.id; });
     std::sort(proposals_.not_proposed.begin(), proposals_.not_proposed.end(),
@@ -290,6 +310,47 @@ class Proposer {
                                            {*upper, *lower, *left, *right});
       if (rims) move_to_rims(eye, lids, *rims);
     }
+  }
+
+  /// Moves proposed folds of lids off the edges of the lids, on which they come to lie where the mesh is coarse: an
+  /// edge that follows a fold stays behind in a blink.
+  void correct_folds() {
+    FeaturePointSet all = known_;
+    for (const Proposal& p : proposals_.points) all.push_back(p.point);
+    const std::vector<SurfacePoint> points = surface_points(surface_, all);
+    for (std::size_t eye = 0; eye < 2; ++eye) {
+      const auto edges = find_eye_edges(surface_, points, eye);
+      if (!edges) continue;
+      std::vector<Segment> lines;
+      for (const LidEdge* const edge : {&edges->upper, &edges->lower}) {
+        for (const auto& way : edge->to_corner)
+          for (std::size_t k = 1; k < way.size(); ++k)
+            lines.push_back({face_.at(way[k - 1].value()), face_.at(way[k].value())});
+      }
+      const mpeg4::Opening& lids = mpeg4::lids_of(eye);
+      move_off_edges(index_of(eye == 0 ? "3.13" : "3.14"), settled_[index_of(lids.upper.front())]->y, 1.0, lines);
+      move_off_edges(index_of(eye == 0 ? "3.9" : "3.10"), settled_[index_of(lids.lower.front())]->y, -1.0, lines);
+    }
+  }
+
+  /// A fold to the skin beyond the height `edge` of its lid's: above it (`side` 1) or below it (-1).
+  void move_off_edges(std::size_t id, double edge, double side, std::span<const Segment> edges) {
+    const auto at = proposal_of(id);
+    if (at == proposals_.points.end() || !at->point.vertex) return;
+    if (away_from(edges, *settled_[id]) > on_edge) return;
+    proposals_.points.erase(at);
+    settled_[id].reset();
+    const double error = guesses_[id]->error;
+    const glm::dvec3 place = images_[id] ? *images_[id] : guesses_[id]->place;
+    const OrderBounds bounds = order_bounds(id_of(id), settled_);
+    const auto beside = face_.nearest(role_of_point(id_of(id)), place, nullptr, [&](std::uint32_t v) {
+      return !taken_.contains(v) && away_from(edges, face_.at(v)) > on_edge && face_.faces_forward_at(v) &&
+             (face_.at(v).y - edge) * side > 0.0 && bounds.contains(face_.at(v));
+    });
+    if (!beside || !is_near(face_.at(*beside), place, error))
+      return refuse(id, "the surface has no free vertex that fits this point at its expected position");
+    settle(id, {face_.at(*beside), *beside}, images_[id] ? ProposalMethod::mirror : ProposalMethod::proportion,
+           std::max(error, 0.5 * glm::distance(face_.at(*beside), place)));
   }
 
   /// To another vertex.

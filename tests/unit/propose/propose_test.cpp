@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "core/anatomy/lid_edge.h"
 #include "core/anatomy/part_roles.h"
 #include "core/geometry/surface.h"
 #include "core/propose/quick_set.h"
@@ -249,6 +251,45 @@ TEST_F(Propose, IsNotSureOfASideThatTheSurfaceDoesNotTell) {
     EXPECT_NE(p.remark.find("lip"), std::string::npos) << p.remark;
   }
   EXPECT_GE(doubted, 2);
+}
+
+// A fold on the edge of its lid would keep the edge back in a blink.
+TEST_F(Propose, DoesNotPutTheFoldOfALidOnItsEdge_WhereNothingElseIsNear) {
+  const auto edges = find_eye_edges(surface_, surface_points(surface_, all_), 0);
+  ASSERT_TRUE(edges.has_value());
+  std::set<std::uint32_t> upper;
+  for (const auto& way : edges->upper.to_corner)
+    for (const SurfaceVertexId v : way) upper.insert(v.value());
+  const FeaturePointSet known = some(quick_set);
+  const auto of_fine_lid = propose(known);
+  ASSERT_TRUE(of_fine_lid);
+  const FeaturePoint& of_fold = find(*of_fine_lid, fp("3.13"))->point;
+  const glm::dvec3 fold(of_fold.position);
+  // A coarse lid: all vertices about its fold become the nearest one of the edge.
+  const double reach = 1.6 * glm::distance(fold, edges->upper.middle.position);
+  const auto is_of_lid = [&](PartId part) {
+    return part == surface_.part_of[*upper.begin()] ||
+           part == surface_.part_of[surface_.surface_of[of_fold.vertex->value()].value()];
+  };
+  Model coarse = model_;
+  for (Triangle& t : coarse.triangles) {
+    for (std::uint32_t& corner : t) {
+      const std::uint32_t v = surface_.surface_of[corner].value();
+      const glm::dvec3& place = surface_.positions[v];
+      if (upper.contains(v) || !is_of_lid(surface_.part_of[v])) continue;
+      if (glm::distance(place, fold) > reach || place.y < edges->upper.middle.position.y) continue;
+      const auto off = [&](std::uint32_t u) { return glm::distance(surface_.positions[u], place); };
+      const std::uint32_t nearest =
+          *std::min_element(upper.begin(), upper.end(), [&](auto a, auto b) { return off(a) < off(b); });
+      corner = surface_.file_vertex_of[nearest].value();
+    }
+  }
+  const Surface surface = build_surface(coarse);
+  const auto proposals = propose_feature_points(surface, describe_parts(coarse, surface, known), known);
+  ASSERT_TRUE(proposals);
+  const Proposal* const proposed = find(*proposals, fp("3.13"));
+  ASSERT_NE(proposed, nullptr);
+  EXPECT_GT(glm::distance(glm::dvec3(proposed->point.position), fold), 0.9 * reach);
 }
 
 TEST_F(Propose, RefusesTooFewPointsAndNamesTheMissing) {
