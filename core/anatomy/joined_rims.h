@@ -30,8 +30,8 @@ inline constexpr double joined_share = 0.8;
 std::optional<RimCrossing> shortest_crossing(const Surface& surface, const mpeg4::Opening& opening,
                                              std::span<const SurfacePoint> points);
 
-/// Whether a path joins the rims. One that leads behind `ball`, the eyeball, does not: the floor of a shallow socket is
-/// not seen, and folds where it may.
+/// Whether a path joins the rims. One that leads behind `ball`, the eyeball, does not: it crosses the floor of a
+/// shallow socket, which may fold because nobody sees it.
 bool joins(const RimCrossing& crossing, const Surface& surface, const std::optional<Sphere>& ball = std::nullopt);
 
 /// Whether the rims of an opening are one skin.

@@ -188,8 +188,7 @@ Finding welded_eye(const Subject& head, const Eye& eye, const ModelledEye& model
                   " have no effect, and lids that close over it leave thin cracks where both share vertices";
   finding.remedy =
       "split the vertices that the eyeball shares with the lids, or export the head without merging near vertices; "
-      "then "
-      "the eyeball is a part of its own";
+      "then the eyeball is a part of its own";
   return finding;
 }
 

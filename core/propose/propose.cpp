@@ -59,7 +59,7 @@ double difference_between_heads(FeaturePointId id) {
   return group_of(id) == 10 ? ear : group_of(id) == 11 ? hair : 0.0;
 }
 
-/// What is so near to the line along the edge of a lid lies on it. Folds of real lids are 0.07 and more from it.
+/// Maximum distance from the edge of a lid of what lies on it. Folds of real lids are 0.07 and more from it.
 constexpr double on_edge = 0.02;
 
 /// Of the edges at a vertex: the right place is between vertices.
@@ -119,13 +119,13 @@ struct Segment {
   glm::dvec3 from, to;
 };
 
-double away_from(std::span<const Segment> lines, const glm::dvec3& place) {
+double distance_to(std::span<const Segment> segments, const glm::dvec3& place) {
   double least = std::numeric_limits<double>::infinity();
-  for (const Segment& line : lines) {
-    const glm::dvec3 way = line.to - line.from;
+  for (const Segment& segment : segments) {
+    const glm::dvec3 way = segment.to - segment.from;
     const double square = glm::dot(way, way);
-    const double t = square > 0.0 ? std::clamp(glm::dot(place - line.from, way) / square, 0.0, 1.0) : 0.0;
-    least = std::min(least, glm::distance(place, line.from + t * way));
+    const double share = square > 0.0 ? std::clamp(glm::dot(place - segment.from, way) / square, 0.0, 1.0) : 0.0;
+    least = std::min(least, glm::distance(place, segment.from + share * way));
   }
   return least;
 }
@@ -312,8 +312,8 @@ class Proposer {
     }
   }
 
-  /// Moves proposed folds of lids off the edges of the lids, on which they come to lie where the mesh is coarse: an
-  /// edge that follows a fold stays behind in a blink.
+  /// Moves proposed folds of lids off the edges of the lids, on which they come to lie where the mesh is coarse: the
+  /// place of an edge that is marked as a fold stays behind in a blink.
   void correct_folds() {
     FeaturePointSet all = known_;
     for (const Proposal& p : proposals_.points) all.push_back(p.point);
@@ -321,31 +321,32 @@ class Proposer {
     for (std::size_t eye = 0; eye < 2; ++eye) {
       const auto edges = find_eye_edges(surface_, points, eye);
       if (!edges) continue;
-      std::vector<Segment> lines;
+      std::vector<Segment> along_edges;
       for (const LidEdge* const edge : {&edges->upper, &edges->lower}) {
         for (const auto& way : edge->to_corner)
           for (std::size_t k = 1; k < way.size(); ++k)
-            lines.push_back({face_.at(way[k - 1].value()), face_.at(way[k].value())});
+            along_edges.push_back({face_.at(way[k - 1].value()), face_.at(way[k].value())});
       }
       const mpeg4::Opening& lids = mpeg4::lids_of(eye);
-      move_off_edges(index_of(eye == 0 ? "3.13" : "3.14"), settled_[index_of(lids.upper.front())]->y, 1.0, lines);
-      move_off_edges(index_of(eye == 0 ? "3.9" : "3.10"), settled_[index_of(lids.lower.front())]->y, -1.0, lines);
+      move_off_edges(index_of(eye == 0 ? "3.13" : "3.14"), settled_[index_of(lids.upper.front())]->y, 1.0, along_edges);
+      move_off_edges(index_of(eye == 0 ? "3.9" : "3.10"), settled_[index_of(lids.lower.front())]->y, -1.0, along_edges);
     }
   }
 
-  /// A fold to the skin beyond the height `edge` of its lid's: above it (`side` 1) or below it (-1).
-  void move_off_edges(std::size_t id, double edge, double side, std::span<const Segment> edges) {
+  /// Moves a fold that lies on an edge to the nearest free vertex above (`side` 1) or below (-1) `height`, that of the
+  /// middle of its lid's edge.
+  void move_off_edges(std::size_t id, double height, double side, std::span<const Segment> edges) {
     const auto at = proposal_of(id);
     if (at == proposals_.points.end() || !at->point.vertex) return;
-    if (away_from(edges, *settled_[id]) > on_edge) return;
+    if (distance_to(edges, *settled_[id]) > on_edge) return;
     proposals_.points.erase(at);
     settled_[id].reset();
     const double error = guesses_[id]->error;
     const glm::dvec3 place = images_[id] ? *images_[id] : guesses_[id]->place;
     const OrderBounds bounds = order_bounds(id_of(id), settled_);
     const auto beside = face_.nearest(role_of_point(id_of(id)), place, nullptr, [&](std::uint32_t v) {
-      return !taken_.contains(v) && away_from(edges, face_.at(v)) > on_edge && face_.faces_forward_at(v) &&
-             (face_.at(v).y - edge) * side > 0.0 && bounds.contains(face_.at(v));
+      return !taken_.contains(v) && distance_to(edges, face_.at(v)) > on_edge && face_.faces_forward_at(v) &&
+             (face_.at(v).y - height) * side > 0.0 && bounds.contains(face_.at(v));
     });
     if (!beside || !is_near(face_.at(*beside), place, error))
       return refuse(id, "the surface has no free vertex that fits this point at its expected position");
