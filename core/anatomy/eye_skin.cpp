@@ -16,7 +16,7 @@ namespace {
 /// The skin that is looked at, about the middle of the lids' points.
 constexpr glm::dvec3 reach(0.9, 0.7, 0.7);
 /// Lids stand this far before the ball, at least.
-constexpr double step_of_lid = 0.05;
+constexpr double least_lid_step = 0.05;
 /// The patch from which on a ball is fitted to it, and the radii of balls.
 constexpr double least_for_ball = 0.15;
 constexpr double least_radius = 0.25;
@@ -418,7 +418,7 @@ bool EyeSkin::bends_forward(const Face& from, const Face& to) {
 bool EyeSkin::is_on_ball(const Face& face) const {
   const glm::dvec3 d = face.middle - ball_->center;
   const double distance = glm::length(d);
-  return std::abs(distance - ball_->radius) < step_of_lid * width_ &&
+  return std::abs(distance - ball_->radius) < least_lid_step * width_ &&
          glm::dot(face.normal, d) > greatest_turn * distance;
 }
 

@@ -14,14 +14,14 @@ constexpr double nape_below_eyes = 0.6;   ///< the head ends there at the back
 constexpr double above_line = 0.01;       ///< how far below the line of the jaw the head still reaches
 constexpr double chin_below_mouth = 0.6;  ///< in heights of the eyes above the mouth, without a point of the chin
 
-constexpr std::array<std::string_view, 2> pupil_points = {"3.5", "3.6"};
-constexpr std::array<std::string_view, 8> lid_points = {"3.1", "3.2", "3.3", "3.4", "3.7", "3.8", "3.11", "3.12"};
+constexpr std::array<std::string_view, 2> pupil_point_names = {"3.5", "3.6"};
+constexpr std::array<std::string_view, 8> lid_point_names = {"3.1", "3.2", "3.3", "3.4", "3.7", "3.8", "3.11", "3.12"};
 
 }  // namespace
 
 std::optional<double> eye_height(const FeaturePointSet& points, std::span<const Part> parts) {
   for (const auto& names :
-       {std::span<const std::string_view>(pupil_points), std::span<const std::string_view>(lid_points)}) {
+       {std::span<const std::string_view>(pupil_point_names), std::span<const std::string_view>(lid_point_names)}) {
     double sum = 0.0;
     int count = 0;
     for (const std::string_view name : names) {

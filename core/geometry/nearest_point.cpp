@@ -12,7 +12,7 @@
 namespace semblante {
 namespace {
 /// Ranges with no more nodes are not split.
-constexpr std::size_t leaf_size = 16;
+constexpr std::size_t leaf_points = 16;
 }  // namespace
 
 NearestPoint::NearestPoint(std::span<const glm::dvec3> points) {
@@ -20,7 +20,7 @@ NearestPoint::NearestPoint(std::span<const glm::dvec3> points) {
   nodes_.reserve(points.size());
   for (const glm::dvec3& p : points) nodes_.push_back({p, static_cast<std::uint32_t>(nodes_.size())});
   std::size_t count = 1;
-  for (std::size_t longest = nodes_.size(); longest > leaf_size; longest /= 2) count = 2 * count + 1;
+  for (std::size_t longest = nodes_.size(); longest > leaf_points; longest /= 2) count = 2 * count + 1;
   ranges_.resize(count);
   ranges_[0] = range_of(0, nodes_.size());
 }
@@ -58,7 +58,7 @@ void NearestPoint::go_through(std::size_t range, std::size_t first, std::size_t 
     const glm::dvec3 away = node.position - to;
     look(node.index, glm::dot(away, away));
   };
-  if (last - first <= leaf_size) {
+  if (last - first <= leaf_points) {
     for (std::size_t i = first; i < last; ++i) look_at(nodes_[i]);
     return;
   }

@@ -12,7 +12,7 @@
 namespace semblante {
 namespace {
 
-constexpr std::uint32_t leaf_size = 4;
+constexpr std::uint32_t leaf_triangles = 4;
 
 }  // namespace
 
@@ -36,7 +36,7 @@ void TriangleTree::enclose(Node& node, std::uint32_t first, std::uint32_t last) 
 std::uint32_t TriangleTree::build(std::uint32_t first, std::uint32_t last) {
   const auto at = static_cast<std::uint32_t>(nodes_.size());
   nodes_.emplace_back();
-  if (last - first <= leaf_size) {
+  if (last - first <= leaf_triangles) {
     Node& leaf = nodes_[at];
     leaf.first = first;
     leaf.count = last - first;

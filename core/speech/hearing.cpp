@@ -13,13 +13,12 @@
 namespace semblante {
 namespace {
 
-constexpr std::size_t viseme_count = VisemeNetwork::visemes;
 constexpr float least_probability = 1e-4F;  // surer of nothing than the network can be
 
 /// The visemes of each step of the sound by their probabilities.
-std::vector<std::array<float, viseme_count>> probabilities_of(const Recording& sound) {
+std::vector<std::array<float, VisemeNetwork::visemes>> probabilities_of(const Recording& sound) {
   VisemeListener listener(sound.sample_rate);
-  std::vector<std::array<float, viseme_count>> found;
+  std::vector<std::array<float, VisemeNetwork::visemes>> found;
   std::array<float, 1024> part{};
   // Silence behind the sound brings the last steps out.
   const std::size_t count = sound.samples.size();
@@ -40,13 +39,13 @@ std::vector<std::array<float, viseme_count>> probabilities_of(const Recording& s
 }
 
 /// The path of least cost through all visemes at all steps.
-std::vector<std::uint8_t> likeliest(const std::vector<std::array<float, viseme_count>>& probabilities) {
-  std::array<double, viseme_count> cost{};
-  std::vector<std::array<std::uint8_t, viseme_count>> before(probabilities.size());
+std::vector<std::uint8_t> likeliest(const std::vector<std::array<float, VisemeNetwork::visemes>>& probabilities) {
+  std::array<double, VisemeNetwork::visemes> cost{};
+  std::vector<std::array<std::uint8_t, VisemeNetwork::visemes>> before(probabilities.size());
   for (std::size_t n = 0; n < probabilities.size(); ++n) {
     const auto best = static_cast<std::size_t>(std::min_element(cost.begin(), cost.end()) - cost.begin());
     const double least = cost[best];
-    for (std::size_t v = 0; v < viseme_count; ++v) {
+    for (std::size_t v = 0; v < VisemeNetwork::visemes; ++v) {
       const bool changes = least + change_cost < cost[v];
       before[n][v] = static_cast<std::uint8_t>(changes ? best : v);
       cost[v] = (changes ? least + change_cost : cost[v]) - least -
