@@ -20,7 +20,7 @@ product_packages=(build-essential cmake ninja-build pkg-config
 test_packages=(libegl-dev libgles-dev libegl1 libgles2 libgl1-mesa-dri libsdl2-dev
   g++-aarch64-linux-gnu 'qemu-user-static|qemu-user' clang 'libclang-rt-dev|libclang-rt-14-dev|libclang-rt-18-dev'
   libgtest-dev libgmock-dev 'clang-format-14|clang-format' 'clang-tidy-14|clang-tidy'
-  'chromium|chromium-browser' fonts-dejavu-core python3 python3-yaml git ccache)
+  'chromium|chromium-browser' fonts-dejavu-core python3 python3-yaml git)
 
 # Unpacked beside the build where it is not installed: it depends on OpenSceneGraph, 162 packages of 414 MB, for headers that
 # nothing here includes.
