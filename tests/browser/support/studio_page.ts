@@ -189,7 +189,10 @@ export class StudioPage {
       if (!options.allowed?.test(fault)) studio.errors.push(fault);
     };
     page.on('console', (message) => {
-      if (message.type() === 'error' || message.text().includes('Context Lost')) report(message.text());
+      const { url: at } = message.location();
+      if (at.endsWith('/favicon.ico')) return; // which Chromium asks for of a page at rest, a picture that links no icon
+      // The words of a refused request do not say which one it was.
+      if (message.type() === 'error' || message.text().includes('Context Lost')) report(`${message.text()} (${at})`);
     });
     page.on('pageerror', (error) => studio.errors.push(String(error)));
     page.on('requestfailed', (request) => {
