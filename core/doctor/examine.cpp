@@ -88,10 +88,9 @@ Report examine(const Model& model, const Surface& surface, const Rig& rig, Weigh
                fit_face_axes(rig.points),
                find_misplaced_rim_points(surface, points),
                find_points_on_eyes(surface, model.triangles, rig.parts, points)};
-  // With a point on the other rim an opening looks like none.
-  std::vector<SurfacePoint> in_place = points;
-  std::erase_if(in_place, [&](const SurfacePoint& p) { return is_misplaced(head.misplaced, p.id); });
-  head.modelled_eyes = find_modelled_eyes(surface, model.triangles, rig.parts, in_place);
+  head.points_in_place = points;
+  std::erase_if(head.points_in_place, [&](const SurfacePoint& p) { return is_misplaced(head.misplaced, p.id); });
+  head.modelled_eyes = find_modelled_eyes(surface, model.triangles, rig.parts, head.points_in_place);
   Report report;
   for (const auto check :
        {find_wrong_way_round, find_points_on_wrong_surface, find_points_off_lid_edge, find_points_on_modelled_eyes,

@@ -41,12 +41,9 @@ bool will_close_over_eye(const Subject& head, const Opening& opening) {
 
 std::vector<Finding> find_joined_rims(const Subject& head) {
   std::vector<Finding> findings;
-  std::vector<SurfacePoint> points = surface_points(head.surface, head.rig.points);
-  // With a point on the other rim the path does not cross the gap.
-  std::erase_if(points, [&](const SurfacePoint& p) { return is_misplaced(head.misplaced, p.id); });
   for (const Opening& opening : openings) {
     if (closes_over_eye(head, opening) || will_close_over_eye(head, opening)) continue;
-    const std::optional<RimCrossing> crossing = shortest_crossing(head.surface, opening, points);
+    const std::optional<RimCrossing> crossing = shortest_crossing(head.surface, opening, head.points_in_place);
     const auto ball = opening.is_mouth ? std::nullopt : hiding_ball(head.rig, eye_of(opening));
     if (!crossing || !joins(*crossing, head.surface, ball)) continue;
     Finding finding;

@@ -20,9 +20,10 @@ struct Subject {
   const Rig& rig;
   WeightMethod method;
   FaceAxes frame;
-  std::vector<MisplacedRimPoint> misplaced = {};  ///< of find_misplaced_rim_points
-  std::vector<PointOnEye> on_eyes = {};           ///< of find_points_on_eyes
-  ModelledEyes modelled_eyes = {};                ///< of find_modelled_eyes, without the misplaced points
+  std::vector<MisplacedRimPoint> misplaced = {};   ///< of find_misplaced_rim_points
+  std::vector<PointOnEye> on_eyes = {};            ///< of find_points_on_eyes
+  std::vector<SurfacePoint> points_in_place = {};  ///< without the misplaced: with one an opening looks like none
+  ModelledEyes modelled_eyes = {};                 ///< of find_modelled_eyes, by the points in place
 };
 
 }  // namespace semblante
