@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/anatomy/flat_iris.h"
+#include "core/anatomy/part_roles.h"
 #include "core/anatomy/point_lookup.h"
 #include "core/anatomy/pupil_hole.h"
 #include "core/geometry/triangle_shape.h"
@@ -111,7 +112,7 @@ std::optional<IrisOfEye> find_iris(const Model& model, const Surface& surface, s
     why_not = std::move(words);
     return std::nullopt;
   };
-  if (std::none_of(parts.begin(), parts.end(), [&](const Part& p) { return p.role == role; })) {
+  if (!has_part(parts, role)) {
     return refuse("is no part");
   }
   const FeaturePoint* const pupil = find_point(points, pupil_name);

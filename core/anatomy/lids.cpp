@@ -7,6 +7,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/anatomy/part_roles.h"
 #include "core/anatomy/smooth_step.h"
 
 namespace semblante {
@@ -148,17 +149,13 @@ std::optional<Lids> find_lids(const Surface& surface, const EyeEdges& edges, con
   for (float& share : lids.gaze_share) share *= static_cast<float>(smooth_step(closed_slit, open_slit, slit));
   const glm::dvec3 pole = pole_of(rig, eye, pivot);
   lids.gaze = pole;
-  lids.ball = modelled != nullptr
-                  ? ball_of(surface, *modelled, pivot, pole)
-                  : ball_of(surface, rig.parts, eye == 0 ? PartRole::left_eye : PartRole::right_eye, pivot, pole);
+  lids.ball = modelled != nullptr ? ball_of(surface, *modelled, pivot, pole)
+                                  : ball_of(surface, rig.parts, eyeball_role(eye), pivot, pole);
   return lids;
 }
 
 std::optional<Sphere> hiding_ball(const Rig& rig, std::size_t eye) {
-  const PartRole role = eye == 0 ? PartRole::left_eye : PartRole::right_eye;
-  const bool is_part =
-      std::any_of(rig.parts.begin(), rig.parts.end(), [role](const Part& part) { return part.role == role; });
-  if (!is_part || !rig.lids[eye]) return std::nullopt;
+  if (!has_part(rig.parts, eyeball_role(eye)) || !rig.lids[eye]) return std::nullopt;
   const auto& radii = rig.lids[eye]->ball;
   return Sphere{eye == 0 ? rig.left_eye_pivot : rig.right_eye_pivot, *std::min_element(radii.begin(), radii.end()),
                 0.0};

@@ -24,8 +24,8 @@ inline constexpr double least_slit = 0.001;
 std::optional<Lids> find_lids(const Surface& surface, const EyeEdges& edges, const Rig& rig, std::size_t eye,
                               const ModelledEye* modelled = nullptr);
 
-/// The eyeball, which hides what lies behind it, with its least radius about the pivot; empty if it is no part of its
-/// own, or if nothing rolls on it.
+/// The eyeball as a sphere about its pivot, with its least radius: what lies behind it is hidden. Empty if the eyeball
+/// is no part of its own, or if no lids roll on it.
 std::optional<Sphere> hiding_ball(const Rig& rig, std::size_t eye);
 
 }  // namespace semblante

@@ -6,6 +6,7 @@
 #include "core/anatomy/eye_skin.h"
 #include "core/anatomy/joined_rims.h"
 #include "core/anatomy/lid_edge.h"
+#include "core/anatomy/part_roles.h"
 #include "core/geometry/nearest_point.h"
 #include "core/tables/openings.h"
 
@@ -162,8 +163,7 @@ ModelledEyes find_modelled_eyes(const Surface& surface, std::span<const Triangle
                                 std::span<const Part> parts, std::span<const SurfacePoint> points) {
   ModelledEyes eyes;
   for (std::size_t eye = 0; eye < eyes.size(); ++eye) {
-    const PartRole role = eye == 0 ? PartRole::left_eye : PartRole::right_eye;
-    if (std::any_of(parts.begin(), parts.end(), [role](const Part& part) { return part.role == role; })) continue;
+    if (has_part(parts, eyeball_role(eye))) continue;
     eyes[eye] = find_modelled_eye(surface, triangles, points, mpeg4::lids_of(eye));
   }
   return eyes;

@@ -90,6 +90,10 @@ bool has_both_eyes(const PartShape& shape, const FeaturePointSet& points) {
 
 }  // namespace
 
+bool has_part(std::span<const Part> parts, PartRole role) {
+  return std::any_of(parts.begin(), parts.end(), [role](const Part& part) { return part.role == role; });
+}
+
 bool is_skin_point(FeaturePointId id) {
   const int number = number_of(id);
   switch (group_of(id)) {

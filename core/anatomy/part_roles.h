@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <vector>
@@ -17,6 +18,12 @@ namespace semblante {
 /// be empty: then only names, places and sizes are used.
 std::vector<Part> describe_parts(const Model& model, const Surface& surface, const FeaturePointSet& points,
                                  std::span<const std::optional<PartRole>> roles_by_user = {});
+
+/// Whether a part has this role.
+bool has_part(std::span<const Part> parts, PartRole role);
+
+/// The role of an eyeball (0 left, 1 right).
+constexpr PartRole eyeball_role(std::size_t eye) { return eye == 0 ? PartRole::left_eye : PartRole::right_eye; }
 
 /// True for the points that can only lie on skin: groups 2, 4, 5, 8, 10, the lids (3.1-3.4, 3.7-3.14) and the nose
 /// (9.1-9.7, 9.12-9.15).

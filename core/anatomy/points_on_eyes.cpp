@@ -9,6 +9,7 @@
 #include "core/anatomy/joined_rims.h"
 #include "core/anatomy/modelled_eye.h"
 #include "core/anatomy/modelled_rims.h"
+#include "core/anatomy/part_roles.h"
 
 namespace semblante {
 namespace {
@@ -105,8 +106,7 @@ std::vector<PointOnEye> find_points_on_eyes(const Surface& surface, std::span<co
   std::vector<PointOnEye> all;
   std::vector<SurfacePoint> moved(points.begin(), points.end());
   for (const std::size_t eye : {0U, 1U}) {
-    const PartRole role = eye == 0 ? PartRole::left_eye : PartRole::right_eye;
-    if (std::any_of(parts.begin(), parts.end(), [role](const Part& part) { return part.role == role; })) continue;
+    if (has_part(parts, eyeball_role(eye))) continue;
     const std::vector<PointOnEye> found = points_on_eye(surface, triangles, points, mpeg4::lids_of(eye));
     for (const PointOnEye& on : found) {
       const auto at = std::find_if(moved.begin(), moved.end(), [&](const auto& p) { return p.id == on.point.id; });

@@ -194,8 +194,7 @@ Finding welded_eye(const Subject& head, const Eye& eye, const ModelledEye& model
 
 void find_still_eyes(const Subject& head, std::vector<Finding>& out) {
   for (std::size_t k = 0; k < eyes.size(); ++k) {
-    const auto& parts = head.rig.parts;
-    if (std::any_of(parts.begin(), parts.end(), [&](const Part& p) { return p.role == eyes[k].role; })) continue;
+    if (has_part(head.rig.parts, eyes[k].role)) continue;
     const auto& modelled = head.modelled_eyes[k];
     out.push_back(modelled && modelled->is_welded ? welded_eye(head, eyes[k], *modelled) : still_eye(head, eyes[k]));
   }

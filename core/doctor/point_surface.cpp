@@ -107,9 +107,6 @@ void find_skin_points_elsewhere(const Subject& head, std::span<const SurfacePoin
 void find_wrong_parts(const Subject& head, std::span<const SurfacePoint> points, std::vector<Finding>& out) {
   const auto& parts = head.rig.parts;
   find_skin_points_elsewhere(head, points, out);
-  const auto has_role = [&](PartRole role) {
-    return std::any_of(parts.begin(), parts.end(), [&](const Part& part) { return part.role == role; });
-  };
   for (const SurfacePoint& point : points) {
     if (head.surface.steps_from(point.vertex).empty()) {
       Finding finding = at_point(head, point, FindingCode::point_on_no_surface, Severity::error);
@@ -121,9 +118,11 @@ void find_wrong_parts(const Subject& head, std::span<const SurfacePoint> points,
     if (parts[head.surface.part_of[point.vertex.value()].value()].role != PartRole::skin) continue;
     const std::string name = to_string(point.id);
     // Without an eyeball or tongue the point is correctly on the skin.
-    if (name == "3.5" && has_role(PartRole::left_eye)) tell_wrong_part(head, point, "on the left eyeball", out);
-    if (name == "3.6" && has_role(PartRole::right_eye)) tell_wrong_part(head, point, "on the right eyeball", out);
-    if (group_of(point.id) == 6 && has_role(PartRole::tongue)) tell_wrong_part(head, point, "on the tongue", out);
+    if (name == "3.5" && has_part(parts, PartRole::left_eye)) tell_wrong_part(head, point, "on the left eyeball", out);
+    if (name == "3.6" && has_part(parts, PartRole::right_eye))
+      tell_wrong_part(head, point, "on the right eyeball", out);
+    if (group_of(point.id) == 6 && has_part(parts, PartRole::tongue))
+      tell_wrong_part(head, point, "on the tongue", out);
   }
 }
 

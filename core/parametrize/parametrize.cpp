@@ -27,10 +27,6 @@
 namespace semblante {
 namespace {
 
-bool has_part(const std::vector<Part>& parts, PartRole role) {
-  return std::any_of(parts.begin(), parts.end(), [&](const Part& p) { return p.role == role; });
-}
-
 void warn_of_points(const Surface& surface, const std::vector<SurfacePoint>& points,
                     std::vector<std::string>& warnings) {
   if (points.empty()) warnings.emplace_back("no feature point is marked on the surface; nothing will move");
