@@ -15,12 +15,14 @@
 #include "core/anatomy/mirror_plane.h"
 #include "core/anatomy/modelled_eye.h"
 #include "core/anatomy/modelled_rims.h"
+#include "core/anatomy/part_roles.h"
 #include "core/anatomy/plausible_joints.h"
 #include "core/anatomy/point_lookup.h"
 #include "core/anatomy/point_order.h"
 #include "core/anatomy/rim_points.h"
 #include "core/anatomy/seen_lid_edge.h"
 #include "core/geometry/similarity.h"
+#include "core/propose/eye_edge_lines.h"
 #include "core/propose/face_surface.h"
 #include "core/propose/mouth_and_eyes.h"
 #include "core/propose/proportion_guess.h"
@@ -58,9 +60,6 @@ double difference_between_heads(FeaturePointId id) {
   if (name == "3.13" || name == "3.14") return fold_of_lid;
   return group_of(id) == 10 ? ear : group_of(id) == 11 ? hair : 0.0;
 }
-
-/// Maximum distance from the edge of a lid of what lies on it. Folds of real lids are 0.07 and more from it.
-constexpr double on_edge = 0.02;
 
 /// Of the edges at a vertex: the right place is between vertices.
 constexpr double between_vertices = 0.5;
@@ -113,21 +112,6 @@ enum class Turn : std::uint8_t { open_skin, rims, related };
 Turn turn_of(FeaturePointId id) {
   if (has_relation(id)) return Turn::related;
   return rim_of_point(id).opening != nullptr ? Turn::rims : Turn::open_skin;
-}
-
-struct Segment {
-  glm::dvec3 from, to;
-};
-
-double distance_to(std::span<const Segment> segments, const glm::dvec3& place) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const Segment& segment : segments) {
-    const glm::dvec3 way = segment.to - segment.from;
-    const double square = glm::dot(way, way);
-    const double share = square > 0.0 ? std::clamp(glm::dot(place - segment.from, way) / square, 0.0, 1.0) : 0.0;
-    least = std::min(least, glm::distance(place, segment.from + share * way));
-  }
-  return least;
 }
 
 /// A position, with the surface vertex there, if any.
@@ -245,12 +229,17 @@ class Proposer {
            std::max(error, 0.5 * off), doubt);
   }
 
+  /// The known points and those proposed so far.
+  [[nodiscard]] std::vector<SurfacePoint> present_points() const {
+    FeaturePointSet all = known_;
+    for (const Proposal& p : proposals_.points) all.push_back(p.point);
+    return surface_points(surface_, all);
+  }
+
   /// The sides of lips and lids again, by all points beside them, of which some were not yet there at the choice: on a
   /// mesh as coarse as a lip the two may differ. Known points stay.
   void correct_sides() {
-    FeaturePointSet all = known_;
-    for (const Proposal& p : proposals_.points) all.push_back(p.point);
-    for (const MisplacedRimPoint& misplaced : find_misplaced_rim_points(surface_, surface_points(surface_, all))) {
+    for (const MisplacedRimPoint& misplaced : find_misplaced_rim_points(surface_, present_points())) {
       const auto at = proposal_of(misplaced.point.id.value());
       if (at == proposals_.points.end()) continue;
       const std::size_t id = misplaced.point.id.value();
@@ -297,7 +286,7 @@ class Proposer {
   void correct_modelled_rims() {
     if (triangles_.empty()) return;
     for (std::size_t eye = 0; eye < 2; ++eye) {
-      if (!face_.with_role(eye == 0 ? PartRole::left_eye : PartRole::right_eye).empty()) continue;
+      if (!face_.with_role(eyeball_role(eye)).empty()) continue;
       const mpeg4::Opening& lids = mpeg4::lids_of(eye);
       const auto& upper = settled_[index_of(lids.upper.front())];
       const auto& lower = settled_[index_of(lids.lower.front())];
@@ -315,37 +304,30 @@ class Proposer {
   /// Moves proposed folds of lids off the edges of the lids, on which they come to lie where the mesh is coarse: the
   /// place of an edge that is marked as a fold stays behind in a blink.
   void correct_folds() {
-    FeaturePointSet all = known_;
-    for (const Proposal& p : proposals_.points) all.push_back(p.point);
-    const std::vector<SurfacePoint> points = surface_points(surface_, all);
+    const std::vector<SurfacePoint> points = present_points();
     for (std::size_t eye = 0; eye < 2; ++eye) {
       const auto edges = find_eye_edges(surface_, points, eye);
       if (!edges) continue;
-      std::vector<Segment> along_edges;
-      for (const LidEdge* const edge : {&edges->upper, &edges->lower}) {
-        for (const auto& way : edge->to_corner)
-          for (std::size_t k = 1; k < way.size(); ++k)
-            along_edges.push_back({face_.at(way[k - 1].value()), face_.at(way[k].value())});
-      }
+      const EyeEdgeLines lines(*edges, face_.places());
       const mpeg4::Opening& lids = mpeg4::lids_of(eye);
-      move_off_edges(index_of(eye == 0 ? "3.13" : "3.14"), settled_[index_of(lids.upper.front())]->y, 1.0, along_edges);
-      move_off_edges(index_of(eye == 0 ? "3.9" : "3.10"), settled_[index_of(lids.lower.front())]->y, -1.0, along_edges);
+      move_off_edges(index_of(eye == 0 ? "3.13" : "3.14"), settled_[index_of(lids.upper.front())]->y, 1.0, lines);
+      move_off_edges(index_of(eye == 0 ? "3.9" : "3.10"), settled_[index_of(lids.lower.front())]->y, -1.0, lines);
     }
   }
 
   /// Moves a fold that lies on an edge to the nearest free vertex above (`side` 1) or below (-1) `height`, that of the
   /// middle of its lid's edge.
-  void move_off_edges(std::size_t id, double height, double side, std::span<const Segment> edges) {
+  void move_off_edges(std::size_t id, double height, double side, const EyeEdgeLines& edges) {
     const auto at = proposal_of(id);
     if (at == proposals_.points.end() || !at->point.vertex) return;
-    if (distance_to(edges, *settled_[id]) > on_edge) return;
+    if (!edges.has(*settled_[id])) return;
     proposals_.points.erase(at);
     settled_[id].reset();
     const double error = guesses_[id]->error;
     const glm::dvec3 place = images_[id] ? *images_[id] : guesses_[id]->place;
     const OrderBounds bounds = order_bounds(id_of(id), settled_);
     const auto beside = face_.nearest(role_of_point(id_of(id)), place, nullptr, [&](std::uint32_t v) {
-      return !taken_.contains(v) && distance_to(edges, face_.at(v)) > on_edge && face_.faces_forward_at(v) &&
+      return !taken_.contains(v) && !edges.has(face_.at(v)) && face_.faces_forward_at(v) &&
              (face_.at(v).y - height) * side > 0.0 && bounds.contains(face_.at(v));
     });
     if (!beside || !is_near(face_.at(*beside), place, error))
@@ -437,9 +419,7 @@ class Proposer {
           return !order_bounds(id_of(move.id), moved).contains(face_.at(move.vertex));
         }))
       return false;
-    FeaturePointSet all = known_;
-    for (const Proposal& p : proposals_.points) all.push_back(p.point);
-    std::vector<SurfacePoint> points = surface_points(surface_, all);
+    std::vector<SurfacePoint> points = present_points();
     for (SurfacePoint& point : points) {
       for (const Move& move : moves) {
         if (point.id != id_of(move.id)) continue;
