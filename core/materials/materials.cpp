@@ -21,14 +21,14 @@ bool is_solid(const Material& material, Plain plain) {
     case Plain::pupil:
     case Plain::teeth:
     case Plain::mouth:
-      return material.base_color.a >= 1.0F;  // a film over an eye is meant to be seen through
+      return material.base_color.a >= 1.0F;  // less than 1 is intended: a transparent film over an eye, for example
     default:
       return false;
   }
 }
 
-/// The material with the holes of its image, and nothing half seen. Many exporters call every material blended whose
-/// image has a channel of opacity, and some write the opacity of a material as its transparency.
+/// The material as a mask: its image cuts holes, and nothing is half transparent. Many exporters call every material
+/// blended whose image has a channel of opacity, and some write the opacity of a material as its transparency.
 Material solid(Material material) {
   material.alpha_mode = material.base_color_image < 0 ? Material::AlphaMode::opaque : Material::AlphaMode::mask;
   material.base_color.a = 1.0F;
