@@ -27,7 +27,7 @@ glm::dvec3 along_z(const glm::dvec3& p) { return {p.x, -p.z, p.y}; }
 /// The head stands along -Z and faces +Y.
 glm::dvec3 along_minus_z(const glm::dvec3& p) { return {p.x, p.z, -p.y}; }
 
-/// The sample head as OBJ; of its front alone where `is_mask`.
+/// The sample head as OBJ, only its front if `is_mask`.
 std::string head_obj(Stance stance, bool is_mask) {
   const Model model = testing::sample_head_model();
   std::ostringstream text;
