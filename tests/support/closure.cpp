@@ -98,10 +98,15 @@ void rasterize(const Segment& segment, int axis, double from, double step, Visit
   glm::dvec2 a = segment[0];
   glm::dvec2 b = segment[1];
   if (a[axis] > b[axis]) std::swap(a, b);
-  const double last = std::min(std::floor((b[axis] - from) / step), static_cast<double>(samples) - 1.0);
-  for (double k = std::max(0.0, std::ceil((a[axis] - from) / step)); k <= last; ++k) {
-    const double t = b[axis] > a[axis] ? (from + k * step - a[axis]) / (b[axis] - a[axis]) : 0.0;
-    visit(static_cast<std::size_t>(k), glm::mix(a, b, t)[1 - axis]);
+  constexpr double end = samples - 1;
+  const double first = std::max((a[axis] - from) / step, 0.0);
+  const double last = std::min((b[axis] - from) / step, end);
+  if (!(first <= last)) return;
+  const int other = 1 - axis;
+  const double slope = b[axis] > a[axis] ? (b[other] - a[other]) / (b[axis] - a[axis]) : 0.0;
+  const auto past = static_cast<std::size_t>(last) + 1;
+  for (auto k = static_cast<std::size_t>(std::ceil(first)); k < past; ++k) {
+    visit(k, a[other] + (from + static_cast<double>(k) * step - a[axis]) * slope);
   }
 }
 
@@ -238,19 +243,25 @@ std::optional<Opening> Opening::find(const PosedFace& face, OpeningKind kind) {
 
 std::vector<Closure> Opening::columns_of(std::span<const glm::vec3> moved) const {
   const double step = (to_x_ - from_x_) / static_cast<double>(columns - 1);
+  const auto [low, high] =
+      std::minmax({from_x_ - 2.0 * step, from_x_ + 2.0 * step, to_x_ - 2.0 * step, to_x_ + 2.0 * step});
   std::array<Section, columns> sections;
   for (const Piece& piece : pieces_) {
-    const auto [least, most] =
-        std::minmax({moved[piece.triangle[0]].x, moved[piece.triangle[1]].x, moved[piece.triangle[2]].x});
+    const float a = moved[piece.triangle[0]].x;
+    const float b = moved[piece.triangle[1]].x;
+    const float c = moved[piece.triangle[2]].x;
+    const float least = std::min(a, std::min(b, c));
+    const float most = std::max(a, std::max(b, c));
+    if (most < low || least > high) continue;
     // The columns at the triangle, and one more on either side for what rounding loses; `cut` says which of them it
     // reaches.
     const auto [first, last] = std::minmax({(least - from_x_) / step, (most - from_x_) / step});
     const double end = std::min(std::floor(last) + 2.0, static_cast<double>(columns));
-    for (double c = std::max(0.0, std::ceil(first) - 1.0); c < end; ++c) {
+    for (double column = std::max(0.0, std::ceil(first) - 1.0); column < end; ++column) {
       const auto segment =
-          cut(piece.triangle, moved, from_x_ + (to_x_ - from_x_) * c / static_cast<double>(columns - 1));
+          cut(piece.triangle, moved, from_x_ + (to_x_ - from_x_) * column / static_cast<double>(columns - 1));
       if (!segment) continue;
-      Section& section = sections[static_cast<std::size_t>(c)];
+      Section& section = sections[static_cast<std::size_t>(column)];
       (piece.inside                ? section.inside
        : piece.side == Side::upper ? section.upper
        : piece.side == Side::lower ? section.lower
