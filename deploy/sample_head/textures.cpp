@@ -1,8 +1,10 @@
 #include "deploy/sample_head/textures.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -37,17 +39,33 @@ double spot(const Vec3& p, const Vec3& centre, const Vec3& size) {
   return std::exp(-glm::dot(q, q));
 }
 
+/// The brow's line in short steps, made once: every texel of the forehead looks at all of them.
+struct BrowStep {
+  double along;
+  Vec2 at;
+  double half_height;
+};
+std::span<const BrowStep> brow_steps() {
+  static const auto steps = [] {
+    std::array<BrowStep, 61> made{};
+    for (std::size_t i = 0; i < made.size(); ++i) {
+      const double t = static_cast<double>(i) / static_cast<double>(made.size() - 1);
+      made[i] = {t, brow_line(t), brow_half_height(t)};
+    }
+    return made;
+  }();
+  return steps;
+}
+
 /// Coverage of the skin by the brow at (x, y): full along its line, frayed by slanted hairs at its edges.
 double brow_cover(const Vec2& p) {
   double best = 1e9;
   double at = 0.0;
-  for (int i = 0; i <= 60; ++i) {
-    const double t = i / 60.0;
-    const Vec2 d = p - brow_line(t);
-    const double away = glm::length(d) / brow_half_height(t);
+  for (const BrowStep& step : brow_steps()) {
+    const double away = glm::length(p - step.at) / step.half_height;
     if (away < best) {
       best = away;
-      at = t;
+      at = step.along;
     }
   }
   // Hairs are slanted outwards; three waves without a common period look irregular.
