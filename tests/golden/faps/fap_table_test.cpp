@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/anatomy/point_lookup.h"
 #include "tests/support/posed_face.h"
 
 namespace semblante {
@@ -68,26 +69,23 @@ class Subject {
   /// The vertices that are more than two eye distances away from a point and from all that follow it.
   [[nodiscard]] std::vector<bool> far_from(const std::string& point) const {
     std::vector<bool> is_far(count(), true);
+    const float near = 2048.0F * unit("ES");
     for (const FeaturePoint& p : head_.points) {
       const std::string id = to_string(p.id);
       if (!p.vertex || (id != point && share_of_companion(id, point) == 0.0F)) continue;
       for (std::size_t v = 0; v < count(); ++v) {
-        if (glm::distance(rest_[v], rest_[p.vertex->value()]) <= 2048.0F * unit("ES")) is_far[v] = false;
+        if (glm::distance(rest_[v], rest_[p.vertex->value()]) <= near) is_far[v] = false;
       }
     }
     return is_far;
   }
 
   [[nodiscard]] std::optional<std::uint32_t> vertex_of(const std::string& point) const {
-    for (const FeaturePoint& p : head_.points) {
-      if (to_string(p.id) == point && p.vertex) return p.vertex->value();
-    }
-    return std::nullopt;
+    const FeaturePoint* const found = find_point(head_.points, point);
+    return found != nullptr && found->vertex ? std::optional(found->vertex->value()) : std::nullopt;
   }
   [[nodiscard]] glm::vec3 position_of(const std::string& point) const {
-    for (const FeaturePoint& p : head_.points) {
-      if (to_string(p.id) == point) return p.position;
-    }
+    if (const FeaturePoint* const found = find_point(head_.points, point)) return found->position;
     ADD_FAILURE() << name() << " has no point " << point;
     return glm::vec3(0.0F);
   }
