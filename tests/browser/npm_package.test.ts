@@ -324,6 +324,30 @@ test('Package_ElementWithTheWordFalse_IsOffAndAsWithoutTheAttribute', async () =
   });
 });
 
+/** As with a picture in picture: the pictures of a page that is hidden do not go on, those of the other window do. */
+test('Package_ElementMovedToAnotherWindow_IsDrawnThereAsBefore', async () => {
+  writeFileSync(
+    join(project, 'move.html'),
+    `<!doctype html><iframe width="400" height="500"></iframe><semblante-face stream="demo" captions></semblante-face>
+<script type="module" src="node_modules/semblante/dist/element.js"></script>`,
+  );
+  await moves('/move.html', server.url, async (page) => {
+    await page.evaluate(() => {
+      const face = document.querySelector('semblante-face')!;
+      document.implementation.createHTMLDocument().body.append(face); // no window shows it
+      window.requestAnimationFrame = () => 0;
+      document.querySelector('iframe')!.contentDocument!.body.append(face);
+    });
+    const face = page.frameLocator('iframe').locator('semblante-face');
+    await expect.poll(() => face.evaluate((one) => (one as unknown as { state: string }).state), { timeout: patience }).toBe('playing');
+    const shown = await face.evaluate((one) => {
+      const { width, height } = one.getBoundingClientRect();
+      return { width, height, sheets: one.shadowRoot!.adoptedStyleSheets.length };
+    });
+    expect(shown).toEqual({ width: 320, height: 400, sheets: 2 });
+  });
+});
+
 /** Of a region of the page, from two pictures of it: the share of pixels that the face covers, and of those that changed. */
 interface Seen {
   covered: number;

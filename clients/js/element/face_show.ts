@@ -102,6 +102,9 @@ export class FaceShow extends Emitter<ShowEvents> {
   /** Begins with the images that the first picture did not wait for. */
   private fillLarge: () => void = () => undefined;
   private readonly resized: ResizeObserver;
+  /** Where the face is shown: a page can move it to another window, whose pictures go on while the page is hidden. */
+  private readonly page: Document;
+  private readonly window: Window & typeof globalThis;
 
   /** Throws FaceTrouble where WebGL 2 is missing. */
   constructor(
@@ -109,10 +112,12 @@ export class FaceShow extends Emitter<ShowEvents> {
     private readonly options: ShowOptions,
   ) {
     super();
+    this.page = stage.ownerDocument;
+    this.window = this.page.defaultView!;
     this.paused = options.paused;
     this.budget = budgetOf(thisDevice((graphicsName ??= rendererName())), options.quality);
     this.render = this.budget.render;
-    this.pace = new Pace(cheaperSteps(this.render, window.devicePixelRatio || 1));
+    this.pace = new Pace(cheaperSteps(this.render, this.window.devicePixelRatio || 1));
     try {
       this.renderer = new FaceRenderer(stage, this.render, options.fades);
     } catch {
@@ -127,14 +132,14 @@ export class FaceShow extends Emitter<ShowEvents> {
     this.link.client.on('header', () => this.emit('sound', undefined));
     this.player.follow(this.link.client);
     this.link.on('state', () => this.takeLink());
-    for (const name of ['online', 'pageshow', 'focus']) window.addEventListener(name, this.check);
-    document.addEventListener('visibilitychange', this.check);
-    this.resized = new ResizeObserver(() => this.resize());
+    for (const name of ['online', 'pageshow', 'focus']) this.window.addEventListener(name, this.check);
+    this.page.addEventListener('visibilitychange', this.check);
+    this.resized = new this.window.ResizeObserver(() => this.resize());
     this.resized.observe(stage);
     this.resize();
     this.link.open();
     void this.load();
-    this.frameRequest = requestAnimationFrame(this.frame);
+    this.frameRequest = this.window.requestAnimationFrame(this.frame);
   }
 
   /** Draws only while it is seen; the graphics card keeps a face a little longer. */
@@ -222,11 +227,11 @@ export class FaceShow extends Emitter<ShowEvents> {
 
   close(): void {
     this.work.abort();
-    cancelAnimationFrame(this.frameRequest);
+    this.window.cancelAnimationFrame(this.frameRequest);
     clearTimeout(this.retryTimer);
     clearTimeout(this.awayTimer);
-    for (const name of ['online', 'pageshow', 'focus']) window.removeEventListener(name, this.check);
-    document.removeEventListener('visibilitychange', this.check);
+    for (const name of ['online', 'pageshow', 'focus']) this.window.removeEventListener(name, this.check);
+    this.page.removeEventListener('visibilitychange', this.check);
     this.resized.disconnect();
     this.sound?.dispose();
     this.speech?.dispose();
@@ -238,7 +243,7 @@ export class FaceShow extends Emitter<ShowEvents> {
   }
 
   private readonly check = (): void => {
-    if (document.visibilityState === 'hidden') return;
+    if (this.page.visibilityState === 'hidden') return;
     this.link.check();
     if (this.retryTimer !== undefined) this.retry(0);
   };
@@ -352,7 +357,7 @@ export class FaceShow extends Emitter<ShowEvents> {
   }
 
   private readonly frame = (time: number): void => {
-    this.frameRequest = requestAnimationFrame(this.frame); // first: an exception below must not end the loop
+    this.frameRequest = this.window.requestAnimationFrame(this.frame); // first: an exception below must not end the loop
     const delta = Math.min(0.5, (time - this.lastTime) / 1000);
     this.lastTime = time;
     if (!this.visible || !this.kernel) return;
@@ -414,7 +419,7 @@ export class FaceShow extends Emitter<ShowEvents> {
 
   /** Drawn pixels for each pixel of the page, along a side. */
   private get pixelRatio(): number {
-    return Math.min(window.devicePixelRatio || 1, this.render.maxPixelRatio);
+    return Math.min(this.window.devicePixelRatio || 1, this.render.maxPixelRatio);
   }
 
   private resize(): void {

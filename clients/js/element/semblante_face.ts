@@ -15,11 +15,16 @@ export type Connection = 'none' | 'good' | 'fair' | 'poor' | 'lost';
 /** Loading begins this far before the element is scrolled into view. */
 const ahead = '200px';
 
-let sheet: CSSStyleSheet | null = null;
-function styles(): CSSStyleSheet {
+/** By document and text: a document takes only sheets of its own, and drops those of another when an element comes from there. */
+const sheets = new WeakMap<Document, Map<string, CSSStyleSheet>>();
+
+function sheetOf(page: Document, text: string): CSSStyleSheet {
+  const ofPage = sheets.get(page) ?? new Map<string, CSSStyleSheet>();
+  sheets.set(page, ofPage);
+  let sheet = ofPage.get(text);
   if (!sheet) {
-    sheet = new CSSStyleSheet();
-    sheet.replaceSync(styleText);
+    ofPage.set(text, (sheet = new page.defaultView!.CSSStyleSheet()));
+    sheet.replaceSync(text);
   }
   return sheet;
 }
@@ -70,11 +75,11 @@ export class SemblanteFace extends FaceAttributesElement {
   private readonly playButton = this.make('button');
   private readonly soundButton = this.make('button');
   private captionsBox: CaptionsBox | null = null;
+  private readonly styles = [styleText];
 
   constructor() {
     super();
     const root = this.attachShadow({ mode: 'open' });
-    root.adoptedStyleSheets = [styles()];
     this.picture.alt = '';
     this.picture.className = 'gone';
     this.picture.addEventListener('error', () => this.picture.classList.add('gone'));
@@ -205,10 +210,13 @@ export class SemblanteFace extends FaceAttributesElement {
   // ---- life -------------------------------------------------------------------------------------------------
 
   connectedCallback(): void {
+    const { defaultView } = this.ownerDocument;
+    if (!defaultView) return; // a document that no window shows
     this.takeEarly();
+    this.dress();
     this.name();
     this.setPoster();
-    this.seen = new IntersectionObserver((entries) => this.look(entries.at(-1)!.isIntersecting), { rootMargin: ahead });
+    this.seen = new defaultView.IntersectionObserver((entries) => this.look(entries.at(-1)!.isIntersecting), { rootMargin: ahead });
     this.seen.observe(this);
   }
 
@@ -288,9 +296,8 @@ export class SemblanteFace extends FaceAttributesElement {
     if (captions && !this.captionsBox) {
       const { CaptionsBox, captionsStyle } = await import('../captions/index.ts');
       if (!this.captionsBox) {
-        const style = new CSSStyleSheet();
-        style.replaceSync(captionsStyle);
-        this.shadowRoot!.adoptedStyleSheets.push(style);
+        this.styles.push(captionsStyle);
+        this.dress();
         this.captionsBox = new CaptionsBox();
         this.words.before(this.captionsBox.element);
       }
@@ -355,6 +362,10 @@ export class SemblanteFace extends FaceAttributesElement {
   }
 
   // ---- presentation -----------------------------------------------------------------------------------------
+
+  private dress(): void {
+    if (this.isConnected && this.ownerDocument.defaultView) this.shadowRoot!.adoptedStyleSheets = this.styles.map((text) => sheetOf(this.ownerDocument, text));
+  }
 
   /** The accessible name belongs to the picture; messages and the button beside it are read for themselves. */
   private name(): void {
