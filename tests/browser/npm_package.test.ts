@@ -324,6 +324,31 @@ test('Package_ElementWithTheWordFalse_IsOffAndAsWithoutTheAttribute', async () =
   });
 });
 
+/** As a framework does with a list that is sorted. */
+test('Package_ElementMovedWithinItsPage_GoesOn_AndOneTakenOffEnds', async () => {
+  writeFileSync(
+    join(project, 'sort.html'),
+    `<!doctype html><main></main><semblante-face stream="demo"></semblante-face>
+<script type="module" src="node_modules/semblante/dist/element.js"></script>`,
+  );
+  await moves('/sort.html', server.url, async (page) => {
+    const next = page.waitForEvent('websocket', { timeout: patience });
+    await page.evaluate(async () => {
+      const face = document.querySelector('semblante-face')!;
+      const canvas = face.shadowRoot!.querySelector('canvas');
+      document.querySelector('main')!.append(face);
+      await new Promise((done) => requestAnimationFrame(done));
+      if ((face as unknown as { state: string }).state !== 'playing' || face.shadowRoot!.querySelector('canvas') !== canvas) throw new Error('began again');
+      face.remove();
+      await new Promise((done) => requestAnimationFrame(done));
+      if ((face as unknown as { state: string }).state !== 'idle') throw new Error('goes on');
+      document.body.append(face);
+    });
+    await next; // the first since the page moved
+    await page.waitForFunction(() => (document.querySelector('semblante-face') as { state?: string } | null)?.state === 'playing');
+  });
+});
+
 /** As with a picture in picture: the pictures of a page that is hidden do not go on, those of the other window do. */
 test('Package_ElementMovedToAnotherWindow_IsDrawnThereAsBefore', async () => {
   writeFileSync(

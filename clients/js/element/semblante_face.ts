@@ -76,6 +76,8 @@ export class SemblanteFace extends FaceAttributesElement {
   private readonly soundButton = this.make('button');
   private captionsBox: CaptionsBox | null = null;
   private readonly styles = [styleText];
+  /** The document that shows it. */
+  private page: Document | null = null;
 
   constructor() {
     super();
@@ -211,7 +213,9 @@ export class SemblanteFace extends FaceAttributesElement {
 
   connectedCallback(): void {
     const { defaultView } = this.ownerDocument;
-    if (!defaultView) return; // a document that no window shows
+    if (!defaultView || this.page === this.ownerDocument) return; // no window shows it, or it was moved within its page
+    this.leave();
+    this.page = this.ownerDocument;
     this.takeEarly();
     this.dress();
     this.name();
@@ -220,7 +224,15 @@ export class SemblanteFace extends FaceAttributesElement {
     this.seen.observe(this);
   }
 
+  /** What is moved within its page comes back at once: lists of frameworks do that when they are sorted. */
   disconnectedCallback(): void {
+    queueMicrotask(() => {
+      if (!this.isConnected || this.ownerDocument !== this.page) this.leave();
+    });
+  }
+
+  private leave(): void {
+    this.page = null;
     this.seen?.disconnect();
     this.seen = null;
     this.inView = false;
@@ -364,7 +376,8 @@ export class SemblanteFace extends FaceAttributesElement {
   // ---- presentation -----------------------------------------------------------------------------------------
 
   private dress(): void {
-    if (this.isConnected && this.ownerDocument.defaultView) this.shadowRoot!.adoptedStyleSheets = this.styles.map((text) => sheetOf(this.ownerDocument, text));
+    const { page } = this;
+    if (page) this.shadowRoot!.adoptedStyleSheets = this.styles.map((text) => sheetOf(page, text));
   }
 
   /** The accessible name belongs to the picture; messages and the button beside it are read for themselves. */
