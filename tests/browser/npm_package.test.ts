@@ -154,6 +154,26 @@ export const all = [Kernel, loadFace, loadRuntime, neutralFrame, StreamClient, l
   expect(await compile('types-node', 'use.ts', text, { lib: ['es2022'], types: ['node'] }, { '@types/node': types, 'undici-types': undici })).toBe('');
 });
 
+/** What a handler of one's own, or a wrapper of a framework, declares as its parameters. */
+test('Package_TypeScript_NamesWhatStreamsAndElementsTell', async () => {
+  const text = `import { StreamClient, type End, type Face, type FaceFrame, type Frames, type Header, type InfluenceTable, type Keyframe, type QuantizerSteps, type StreamError } from 'semblante';
+import type { EndReason, ExpressionBlend, SoundTrack, StreamErrorCode, StreamRole, VisemeBlend, VoiceState } from 'semblante';
+import type { FaceAttributes, Fit, QualityName, SemblanteFace } from 'semblante/element';
+const client = new StreamClient('ws://127.0.0.1:8080', { role: 'subscribe' satisfies StreamRole });
+client.on('header', (header: Header) => console.log(header.sound satisfies SoundTrack | null));
+client.on('keyframe', (keyframe: Keyframe) => keyframe.state satisfies FaceFrame);
+client.on('frames', (frames: Frames) => frames.frames.map(({ state }) => [state.viseme satisfies VisemeBlend, state.expression satisfies ExpressionBlend]));
+client.on('end', (end: End) => end.reason satisfies EndReason);
+client.on('error', (error: StreamError) => error.code satisfies StreamErrorCode);
+export const steps: QuantizerSteps = client.steps;
+export const said = (state: VoiceState): void => client.spoken(state);
+export const influence = (face: Face): InfluenceTable => face.influence;
+export const attributes = (fit: Fit, quality: QualityName): FaceAttributes => ({ fit, quality });
+export const fitOf = (face: SemblanteFace): Fit => face.fit;
+`;
+  expect(await compile('types-names', 'use.ts', text, { lib: ['es2022', 'dom'] }, {})).toBe('');
+});
+
 /** One program of all blocks in their order: a later one sees the names of those before it, and may have its own. */
 test('Package_ReadmeInTypeScript_Compiles', async () => {
   const readme = readFileSync(join(unpacked, 'README.md'), 'utf8');

@@ -1,6 +1,8 @@
 import { SemblanteFace } from './semblante_face.ts';
 
+export type { Fit } from '../view/framing.ts';
 export type { FaceAttributes } from './attributes.ts';
+export type { QualityName } from './detail.ts';
 export { SemblanteFace, type Connection, type FaceEventMap, type FaceState } from './semblante_face.ts';
 export { faceWords, type FaceWords, type Trouble } from './words.ts';
 
