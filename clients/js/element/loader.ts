@@ -119,7 +119,15 @@ export async function modelOf(source: Source, signal: AbortSignal): Promise<stri
     throw response;
   }
   if (!response.ok) throw troubleOf(response.status, 'no-stream', shown(source.stream));
-  const { model } = (await response.json().catch(() => ({}))) as { model?: unknown };
+  const answer = (await response.json().catch((error: unknown) => {
+    if (error instanceof SyntaxError) return null;
+    throw signal.aborted ? error : trouble('unreachable');
+  })) as { id?: unknown; model?: unknown } | null;
+  if (typeof answer?.id !== 'string') {
+    hintOnce(`${address} is answered, but by no Semblante server: src is its address, or a path that the page's server passes on to it`);
+    throw trouble('unreachable');
+  }
+  const { model } = answer;
   if (source.model !== null) return source.model;
   if (typeof model !== 'string' || model === '') throw trouble('no-model', shown(source.stream));
   return model;

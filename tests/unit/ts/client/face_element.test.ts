@@ -163,6 +163,23 @@ test('modelOf_AnIdThatNoStreamHas_IsAbsent_NotAFaultOfTheServer', async () => {
   for (const status of [429, 500, 503]) expect(codes.get(status), `${status}`).toBe('server');
 });
 
+/** As servers of development answer every path with their page. */
+test('modelOf_PageInPlaceOfAStream_IsNoServer_AndIsNamedToTheDeveloper', async () => {
+  const warn = vi.spyOn(console, 'warn').mockImplementation(() => undefined);
+  const asked = async (body: string, model: string | null): Promise<unknown> => {
+    vi.stubGlobal('fetch', async () => new Response(body));
+    return modelOf({ ...source, model }, new AbortController().signal).catch((error: unknown) => (error as FaceTrouble).code);
+  };
+  for (const page of ['<!doctype html>', '{}', 'null']) {
+    expect(await asked(page, null)).toBe('unreachable');
+    expect(await asked(page, 'sample')).toBe('unreachable');
+  }
+  expect(warn.mock.calls.map(([words]) => String(words).split(' ')[1])).toEqual(['https://faces.example/v1/streams/demo']);
+  warn.mockRestore();
+  expect(await asked('{"id":"demo","model":null}', null)).toBe('no-model');
+  expect(await asked('{"id":"demo","model":"sample"}', null)).toBe('sample');
+});
+
 const source = { base: 'https://faces.example', stream: 'demo', model: null, token: null };
 
 test('Images_OfFacesOfOnePage_AreFetchedOnce_AndAgainAfterAFailure', async () => {
