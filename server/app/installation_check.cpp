@@ -20,6 +20,7 @@
 #include <sys/timex.h>
 
 #include "server/app/listening.h"
+#include "server/app/private_files.h"
 #include "server/cli/command_failure.h"
 #include "server/jobs/worker_process.h"
 #include "server/store/disk_space.h"
@@ -178,6 +179,8 @@ void check_studio(InstallationFindings& findings, const ServeOptions& options) {
                         "Name the folder of the built pages with --web-root."});
     return;
   }
+  for (const auto& sentence : private_files_in_web_root(options))
+    findings.push_back({Level::error, "studio", sentence, "Move it, or name another folder with --web-root."});
   std::error_code error;
   const auto page = page_text(options.web_root / "index.html");
   std::vector<std::string> missing;

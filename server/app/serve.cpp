@@ -14,6 +14,7 @@
 #include "server/app/lan_mode.h"
 #include "server/app/open_data.h"
 #include "server/app/open_files.h"
+#include "server/app/private_files.h"
 #include "server/app/sample_installer.h"
 #include "server/app/serve_config.h"
 #include "server/app/serve_failure.h"
@@ -97,6 +98,7 @@ void check_folders(const ServeOptions& options) {
   std::error_code error;
   if (!options.web_root.empty() && !std::filesystem::is_directory(options.web_root, error))
     fail_serve("--web-root: " + options.web_root.string() + " is no folder");
+  if (const auto faults = private_files_in_web_root(options); !faults.empty()) fail_serve(faults.front());
   std::filesystem::create_directories(options.data, error);
   if (error) fail_serve("--data: " + options.data.string() + ": " + error.message());
 }

@@ -53,6 +53,16 @@ bool is_older(const struct stat& a, const struct stat& b) {
 
 }  // namespace
 
+bool lies_within(const std::filesystem::path& root, const std::filesystem::path& file) {
+  std::error_code error;
+  const auto base = std::filesystem::canonical(root, error);
+  if (error) return false;
+  // Of a relative path without any existing part, `weakly_canonical` alone makes no absolute one.
+  const auto place = std::filesystem::weakly_canonical(std::filesystem::absolute(file), error);
+  if (error) return false;
+  return std::mismatch(base.begin(), base.end(), place.begin(), place.end()).first == base.end();
+}
+
 Response static_file(const std::filesystem::path& root, const Request& request) {
   const auto absent = [&] { return to_response(make_problem("not-found", "nothing is served at " + request.path)); };
   std::string path = shows_stream(request.path) ? "/view/" : request.path;
@@ -61,10 +71,7 @@ Response static_file(const std::filesystem::path& root, const Request& request) 
 
   std::error_code error;
   const auto file = std::filesystem::canonical(root / path.substr(1), error);
-  if (error) return absent();
-  const auto base = std::filesystem::canonical(root, error);
-  const auto [end, rest] = std::mismatch(base.begin(), base.end(), file.begin(), file.end());
-  if (error || end != base.end()) return absent();
+  if (error || !lies_within(root, file)) return absent();
   auto info = regular_file(file);
   if (!info) return absent();
 

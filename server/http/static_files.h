@@ -14,4 +14,7 @@ namespace semblante::http {
 /// who accept it.
 Response static_file(const std::filesystem::path& root, const Request& request);
 
+/// Whether a file or folder, which need not exist yet, lies below `root` or is it, wherever links lead.
+[[nodiscard]] bool lies_within(const std::filesystem::path& root, const std::filesystem::path& file);
+
 }  // namespace semblante::http

@@ -102,6 +102,12 @@ class Doctor(unittest.TestCase):
                 self.assertIn(name, told["studio"][0][1])
                 (self.web / name).write_text(text)
 
+    def test_private_files_in_the_web_root(self):
+        told = self.doctor(data=self.web / "data")
+        self.assertIn(("error", f"--data: {self.web}/data lies within --web-root {self.web}, whose files everybody can read; choose a place outside of it"), told["studio"])
+        key = self.web / "key.pem"
+        self.assertIn("error", self.levels(self.doctor("--tls-cert", key, "--tls-key", key), "studio"))
+
     def test_sample_without_its_points(self):
         (self.folder / "head.glb").write_text("x")
         self.assertEqual(self.levels(self.doctor("--sample", self.folder / "head.glb"), "sample head"), {"error"})

@@ -215,6 +215,25 @@ TEST(Start, PublicAddress_IsRefused) {
       ::testing::ThrowsMessage<std::runtime_error>(HasSubstr("can be reached from other machines")));
 }
 
+/// A page's files are read without a token.
+TEST(Start, PrivateFilesInTheWebRoot_AreRefused) {
+  const TemporaryFolder folder;
+  const auto web = folder.path() / "web";
+  const auto link = folder.path() / "link";
+  std::filesystem::create_directories(web);
+  std::filesystem::create_symlink(web, link);
+  const auto start = [&](const std::filesystem::path& data, const std::filesystem::path& root) {
+    const ServerProcess server(data, {"--web-root", root.string()});
+  };
+  const auto is_refused = ::testing::ThrowsMessage<std::runtime_error>(HasSubstr("whose files everybody can read"));
+  EXPECT_THAT([&] { start(web / "data", web); }, is_refused);
+  EXPECT_THAT([&] { start(web, web); }, is_refused);
+  EXPECT_THAT([&] { start(link / "data", web); }, is_refused);
+  EXPECT_THAT([&] { start(web / "data", link); }, is_refused);
+  EXPECT_FALSE(std::filesystem::exists(web / "data"));
+  EXPECT_NO_THROW(start(folder.path() / "web-data", web));
+}
+
 TEST(Start, SampleThatIsNoFile_IsNamed) {
   const TemporaryFolder folder;
   const std::map<std::string, std::string> reasons = {

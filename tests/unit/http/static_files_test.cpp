@@ -109,6 +109,18 @@ TEST(StaticFile, PageOfAStream_IsOneFileForAllStreams) {
     EXPECT_EQ(root.get(address).status, 404) << address;
 }
 
+TEST(StaticFile, LiesWithin_WhereverItIsNamedFrom_AndBeforeItExists) {
+  const WebRoot root("within");
+  root.write("page.js", "x");
+  for (const std::string inside : {"page.js", "data", "data/key", "a/../data"})
+    EXPECT_TRUE(lies_within(root.file(""), root.file(inside))) << inside;
+  for (const std::string outside : {"..", "../web-root-within-data", "a/../../data"})
+    EXPECT_FALSE(lies_within(root.file(""), root.file(outside))) << outside;
+  EXPECT_TRUE(lies_within(std::filesystem::current_path(), "not-there-yet"));
+  EXPECT_TRUE(lies_within(".", "not-there-yet"));
+  EXPECT_FALSE(lies_within("not-there-yet", "not-there-yet/data"));
+}
+
 TEST(StaticFile, Pages_MayRunOnlyTheServersOwnScripts_AndNoPageFramesThem) {
   const std::filesystem::path root = ::testing::TempDir() + "static-file-pages";
   std::filesystem::create_directories(root);
