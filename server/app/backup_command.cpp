@@ -7,6 +7,7 @@
 
 #include "server/app/commands.h"
 #include "server/cli/command_failure.h"
+#include "server/http/static_files.h"
 #include "server/store/store_error.h"
 #include "server/upkeep/backup.h"
 #include "server/upkeep/check.h"
@@ -33,6 +34,11 @@ upkeep::BackupReport run(const std::string& name, const Work& work) {
 }
 
 void run_backup(const BackupCommand& options) {
+  // It would be lost with the folder, and in tmp/ it would be removed by the next start.
+  if (http::lies_within(options.data, options.backup))
+    throw CommandFailure(CommandFailure::bad_input, "backup: " + options.backup.string() +
+                                                        " lies within the data folder " + options.data.string() +
+                                                        "; choose a place outside of it");
   const auto report = run("backup", [&] { return upkeep::back_up(options.data, options.backup); });
   if (!report.faults.empty())
     throw CommandFailure(CommandFailure::has_errors,

@@ -339,6 +339,16 @@ TEST_F(Upkeep, Backup_IsReadableForItsOwnerOnly_AndIsNotMixedWithAnother) {
   EXPECT_EQ(run_semblante({"backup", "--data", restored().string(), "--to", copy().string()}).exit_code, 2);
 }
 
+TEST_F(Upkeep, BackupWithinItsDataFolder_IsRefused) {
+  fill();
+  for (const std::string inside : {"backup", "tmp/backup", "blobs/../backup"}) {
+    const auto backup = run_semblante({"backup", "--data", data().string(), "--to", (data() / inside).string()});
+    EXPECT_EQ(backup.exit_code, 2) << inside;
+    EXPECT_THAT(backup.err, HasSubstr("lies within the data folder"));
+    EXPECT_FALSE(fs::exists(data() / inside)) << inside;
+  }
+}
+
 TEST_F(Upkeep, BackupOfADamagedFolder_HasTheRest_AndSaysSo) {
   fill();
   std::ofstream(blob(weights_)) << "damaged";
