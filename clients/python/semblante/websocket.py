@@ -7,7 +7,7 @@ a WebSocket of its own (asyncio, a framework) does not need this module: `Stream
 import base64
 import hashlib
 import os
-import select
+import selectors
 import socket
 import ssl
 import struct
@@ -84,7 +84,7 @@ class WebSocket:
         head, self._held = self._held.split(b"\r\n\r\n", 1)
         first, *rest = head.decode("latin-1").split("\r\n")
         words = first.split(" ", 2)
-        if len(words) < 2 or not words[1].isdigit():
+        if len(words) < 2 or not words[1].isdecimal():
             raise WebSocketError("the other side does not speak HTTP")
         if words[1] != "101":
             raise WebSocketError(f"the server refused the WebSocket: {' '.join(words[1:])}", int(words[1]))
@@ -124,11 +124,17 @@ class WebSocket:
             message = self._next_message()
             if message is not None:
                 return message
-            # Bytes that TLS has decrypted already are not seen by select.
+            # Bytes that TLS has decrypted already are not seen by a selector.
             pending = getattr(self._socket, "pending", lambda: 0)()
-            if not pending and timeout is not None and not select.select([self._socket], [], [], timeout)[0]:
+            if not pending and timeout is not None and not self._arrives_within(timeout):
                 return None
             self._read_more()
+
+    def _arrives_within(self, timeout: float) -> bool:
+        # Not `select`: it refuses the sockets of a program that has more than 1024 files open.
+        with selectors.DefaultSelector() as selector:
+            selector.register(self._socket, selectors.EVENT_READ)
+            return bool(selector.select(timeout))
 
     def _read_more(self) -> None:
         try:
@@ -166,7 +172,14 @@ class WebSocket:
                     message, is_text = bytes(self._parts), self._kind == _text
                     self._parts.clear()
                     self._kind = None
-                    return message.decode() if is_text else message
+                    return self._text_of(message) if is_text else message
+
+    @staticmethod
+    def _text_of(message: bytes) -> str:
+        try:
+            return message.decode()
+        except UnicodeDecodeError as error:
+            raise WebSocketError("the server sent a text that is not UTF-8") from error
 
     def _next_frame(self) -> Optional[Tuple[bool, int, bytes]]:
         held = self._held

@@ -11,6 +11,7 @@ import math
 import os
 import pathlib
 import pickle
+import resource
 import socket
 import subprocess
 import sys
@@ -380,6 +381,8 @@ class Sockets(unittest.TestCase):
     def test_no_http(self):
         with self.assertRaises(semblante.WebSocketError):
             self.answer(b"hello\r\n\r\n")
+        with self.assertRaisesRegex(semblante.WebSocketError, "does not speak HTTP"):
+            self.answer("HTTP/1.1 10\u00b9 Switching\r\n\r\n".encode("latin-1"))
 
     def test_another_key(self):
         with self.assertRaisesRegex(semblante.WebSocketError, "another request"):
@@ -389,6 +392,22 @@ class Sockets(unittest.TestCase):
         for frame in (b"\x82\x7f\xff\xff\xff\xff\xff\xff\xff\xff", b"\x82\x81abcdx", b"\xf2\x01x", b"\x83\x01x", b"\x80\x01x"):
             with self.assertRaises(semblante.WebSocketError, msg=frame):
                 self.answer(self.UPGRADE + frame).receive(10)
+
+    def test_text_that_is_not_utf_8(self):
+        with self.assertRaisesRegex(semblante.WebSocketError, "not UTF-8"):
+            self.answer(self.UPGRADE + b"\x81\x01\xff").receive(10)
+
+    def test_in_a_program_with_many_open_files(self):
+        before = resource.getrlimit(resource.RLIMIT_NOFILE)
+        many = 1100  # more than `select` can name
+        if before[1] != resource.RLIM_INFINITY and before[1] < 2 * many:
+            self.skipTest(f"a process may have no more than {before[1]} files open")
+        self.addCleanup(resource.setrlimit, resource.RLIMIT_NOFILE, before)
+        resource.setrlimit(resource.RLIMIT_NOFILE, (max(before[0], 2 * many), before[1]))
+        for _ in range(many):
+            self.addCleanup(os.close, os.open(os.devnull, os.O_RDONLY))
+        with self.assertRaises(semblante.Closed):  # it waits, and hears of the end
+            self.answer(self.UPGRADE).receive(10)
 
     def test_messages_in_parts_pings_and_the_end(self):
         frames = b"\x02\x01a\x89\x01p\x00\x01b\x80\x01c" + b"\x81\x02hi" + b"\x88\x05\x03\xe8bye"
