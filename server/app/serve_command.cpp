@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "server/app/browser_names.h"
 #include "server/app/commands.h"
 #include "server/app/installed_files.h"
 #include "server/app/option_sources.h"
@@ -125,12 +126,14 @@ void declare_serve_options(CLI::App& app, ServeOptions& declared) {
   add("--allow-host", options->allowed_hosts,
       "Accepted host name besides localhost, e.g. studio.example behind a proxy that keeps the Host of requests; * "
       "takes any; may be given more than once",
-      "ALLOW_HOST");
+      "ALLOW_HOST")
+      ->check(fault_of_host);
   add("--allow-origin", options->allowed_origins,
       "Origin whose pages may use the server beside its own, also of another port of this machine, e.g. "
       "http://localhost:5173; * takes all; may "
       "be given more than once",
-      "ALLOW_ORIGIN");
+      "ALLOW_ORIGIN")
+      ->check(fault_of_origin);
   add("--allow-frame", options->frame_origins,
       "Origin whose pages may show the server's pages in a frame, e.g. https://shop.example; may be given more than "
       "once",

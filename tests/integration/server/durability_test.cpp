@@ -246,6 +246,32 @@ TEST(Start, SampleThatIsNoFile_IsNamed) {
   }
 }
 
+TEST(Start, NamesThatNoBrowserSends_AreRefused) {
+  const TemporaryFolder folder;
+  const auto start = [&](const std::vector<std::string>& options) {
+    const ServerProcess server(folder.path() / "data", options);
+  };
+  for (const std::string origin : {"https://faces.example/", "faces.example", "https://*.faces.example",
+                                   "HTTPS://faces.example", "https://faces.example:443", "http://faces.example:80", ""})
+    EXPECT_THAT(
+        [&] {
+          start({"--allow-origin", origin});
+        },
+        ::testing::ThrowsMessage<std::runtime_error>(HasSubstr("is no origin as browsers send it")))
+        << origin;
+  for (const std::string host :
+       {"https://faces.example", "faces.example:8443", "*.faces.example", "faces.example/", ""})
+    EXPECT_THAT(
+        [&] {
+          start({"--allow-host", host});
+        },
+        ::testing::ThrowsMessage<std::runtime_error>(HasSubstr("is no name of a host alone")))
+        << host;
+  EXPECT_NO_THROW(start({"--allow-origin", "*", "--allow-origin", "null", "--allow-origin", "http://localhost:5173",
+                         "--allow-origin", "capacitor://localhost", "--allow-origin", "http://[::1]:8080",
+                         "--allow-host", "*", "--allow-host", "Faces.example", "--allow-host", "fe80::1"}));
+}
+
 TEST(Start, LimitsThatAreNoNumber_AreRefused) {
   const TemporaryFolder folder;
   for (const std::string option : {"--client-requests", "--client-failures", "--client-creations"})
