@@ -17,6 +17,8 @@ draco::GeometryAttribute::Type draco_kind(DracoAttribute::Kind kind) {
       return draco::GeometryAttribute::NORMAL;
     case DracoAttribute::Kind::uv:
       return draco::GeometryAttribute::TEX_COORD;
+    case DracoAttribute::Kind::color:
+      return draco::GeometryAttribute::COLOR;
     case DracoAttribute::Kind::generic:
       break;
   }

@@ -14,7 +14,7 @@ namespace semblante {
 /// packed; `value_of_point` maps each point to its value (empty: point i has value i). Points of a UV seam
 /// share their position value, so that Draco does not treat the seam as a border of the mesh.
 struct DracoAttribute {
-  enum class Kind : std::uint8_t { position, normal, uv, generic };
+  enum class Kind : std::uint8_t { position, normal, uv, color, generic };
   enum class Type : std::uint8_t { float32, uint8, uint16, uint32 };
 
   Kind kind = Kind::generic;

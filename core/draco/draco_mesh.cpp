@@ -192,6 +192,19 @@ Result<std::vector<std::uint8_t>> DracoMesh::bytes(std::uint32_t unique_id) cons
   return values<std::uint8_t>(**found);
 }
 
+Result<std::vector<Color8>> DracoMesh::colors(std::uint32_t unique_id) const {
+  const auto found = attribute(unique_id, 3);
+  if (!found) return found.error();
+  if ((*found)->data_type() != draco::DT_UINT8) {
+    return Error{ErrorCode::mismatch, "", "refers to a Draco attribute for colours that has no bytes"};
+  }
+  const auto bytes = values<std::uint8_t>(**found);
+  if (!bytes) return bytes.error();
+  std::vector<Color8> colors(mesh_->num_points());
+  if (!colors.empty()) std::memcpy(colors.data(), bytes->data(), bytes->size());
+  return colors;
+}
+
 Result<std::vector<std::uint32_t>> DracoMesh::numbers(std::uint32_t unique_id) const {
   const auto found = attribute(unique_id, 1);
   if (!found) return found.error();

@@ -47,6 +47,7 @@ class DracoMesh {
   [[nodiscard]] Result<std::vector<glm::vec3>> vectors3(std::uint32_t unique_id) const;     ///< #points
   [[nodiscard]] Result<std::vector<glm::vec2>> vectors2(std::uint32_t unique_id) const;     ///< #points
   [[nodiscard]] Result<std::vector<std::uint8_t>> bytes(std::uint32_t unique_id) const;     ///< #points
+  [[nodiscard]] Result<std::vector<Color8>> colors(std::uint32_t unique_id) const;          ///< #points
   [[nodiscard]] Result<std::vector<std::uint32_t>> numbers(std::uint32_t unique_id) const;  ///< #points
 
  private:

@@ -74,6 +74,7 @@ class Splitter {
   Insertion finish() && {
     put_in_order();
     for (Example& example : model_.examples) add_to(example);
+    if (!model_.colors.empty()) add_colors();
     return std::move(result_);
   }
 
@@ -247,6 +248,15 @@ class Splitter {
       const std::uint32_t last = first_of(primitive.first_triangle + primitive.triangle_count);
       primitive.first_triangle = first_of(primitive.first_triangle);
       primitive.triangle_count = last - primitive.first_triangle;
+    }
+  }
+
+  void add_colors() {
+    for (const InsertedVertex& vertex : result_.vertices) {
+      glm::dvec3 sum(0.0);
+      for (std::size_t c = 0; c < 3; ++c)
+        sum += vertex.shares[static_cast<int>(c)] * glm::dvec3(linear_of_srgb(model_.colors[vertex.corners[c]]));
+      model_.colors.push_back(srgb_of_linear(glm::vec3(sum)));
     }
   }
 

@@ -10,6 +10,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "core/types/color.h"
 #include "core/types/example.h"
 #include "core/types/neck_joints.h"
 
@@ -45,6 +46,8 @@ struct Primitive {
   int material = -1;  ///< index into Model::materials, -1: none
   std::uint32_t first_triangle = 0;
   std::uint32_t triangle_count = 0;
+  /// Model::colors are a part of its look: they are multiplied, as linear light, with the material's base colour.
+  bool has_colors = false;
 };
 
 /// An imported head: indexed triangles over *file vertices*, with separate indices for UVs and normals as in OBJ.
@@ -59,6 +62,8 @@ struct Model {
 
   std::vector<glm::vec3> normals;          ///< #N or empty, unit length
   std::vector<Triangle> normal_triangles;  ///< #T by 3 into normals, or empty; `no_index` where a corner has none
+
+  std::vector<Color8> colors;  ///< #V, or empty; white at vertices of no primitive that has_colors
 
   std::vector<Primitive> primitives;  ///< cover all triangles, in order
   std::vector<Material> materials;

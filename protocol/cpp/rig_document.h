@@ -27,7 +27,7 @@ inline constexpr std::size_t expression_count = 7;  ///< entry 0 is "none"
 struct RigDocument {
   /// Draco unique ids of the attributes of mesh.drc; empty: the mesh has no such attribute.
   struct Attributes {
-    std::optional<std::uint32_t> position, normal, uv, material, file_vertex;
+    std::optional<std::uint32_t> position, normal, uv, material, file_vertex, color;
   };
   struct Mesh {
     Sha256 sha256{};

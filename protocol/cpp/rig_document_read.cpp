@@ -76,6 +76,7 @@ RigDocument::Mesh mesh(const JsonCursor& at) {
   result.attributes.uv = natural_or_null(attributes.member("uv"));
   result.attributes.material = natural_or_null(attributes.member("material"));
   result.attributes.file_vertex = natural_or_null(attributes.member("file_vertex"));
+  if (attributes.has("color")) result.attributes.color = natural_or_null(attributes.member("color"));
   return result;
 }
 

@@ -136,6 +136,7 @@ std::string write_rig(const RigDocument& rig) {
                     {"uv", or_null(attributes.uv)},
                     {"material", or_null(attributes.material)},
                     {"file_vertex", or_null(attributes.file_vertex)}}}};
+  if (attributes.color) json["mesh"]["attributes"]["color"] = *attributes.color;
   json["weights"] = {{"sha256", to_hex(rig.weights.sha256)},
                      {"bytes", rig.weights.bytes},
                      {"bits", rig.weights.bits},

@@ -88,6 +88,7 @@ Result<EncodedMesh> encode_mesh(const RenderMesh& mesh) {
   std::vector<std::uint32_t> value_of_file(file_count, Model::no_index);
   std::vector<std::uint32_t> numbers;
   std::vector<glm::vec3> positions;
+  std::vector<Color8> colors;
   std::vector<std::uint32_t> value_of_point;
   std::vector<glm::vec3> file_positions(file_count);
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
@@ -95,6 +96,7 @@ Result<EncodedMesh> encode_mesh(const RenderMesh& mesh) {
     if (value == Model::no_index) {
       value = static_cast<std::uint32_t>(positions.size());
       positions.push_back(mesh.positions[v]);
+      if (!mesh.colors.empty()) colors.push_back(mesh.colors[v]);
       numbers.push_back(mesh.file_vertex[v]);
       file_positions[mesh.file_vertex[v]] = mesh.positions[v];
     }
@@ -114,6 +116,10 @@ Result<EncodedMesh> encode_mesh(const RenderMesh& mesh) {
   }
   out.attributes.material = static_cast<std::uint32_t>(attributes.size());
   attributes.push_back({Kind::generic, Type::uint8, 1, std::as_bytes(std::span(mesh.materials)), {}, 0});
+  if (!colors.empty()) {
+    out.attributes.color = static_cast<std::uint32_t>(attributes.size());
+    attributes.push_back({Kind::color, Type::uint8, 3, std::as_bytes(std::span(colors)), value_of_point, 0});
+  }
   auto bytes = encode_draco(mesh.positions.size(), mesh.triangles, attributes, encoding_speed);
   if (!bytes) return bytes.error();
   const auto shipped = decode(*bytes, out.attributes.position, std::nullopt);

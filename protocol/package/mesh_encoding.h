@@ -15,6 +15,7 @@ struct MeshAttributeIds {
   std::uint32_t normal = 1;
   std::optional<std::uint32_t> uv;
   std::uint32_t material = 0;
+  std::optional<std::uint32_t> color;
 };
 
 /// mesh.drc and the order of its decoded vertices, which weights and rig.json use.

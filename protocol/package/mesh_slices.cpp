@@ -1,5 +1,8 @@
 #include "protocol/package/mesh_slices.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "protocol/package/quantization.h"
 
 namespace semblante {
@@ -22,6 +25,15 @@ std::vector<Slice> slice_by_material(const RenderMesh& mesh, std::size_t materia
   return slices;
 }
 
+namespace {
+
+bool has_colors(const RenderMesh& mesh, const Slice& slice) {
+  return !mesh.colors.empty() && std::any_of(slice.vertices.begin(), slice.vertices.end(),
+                                             [&](std::uint32_t v) { return mesh.colors[v] != white; });
+}
+
+}  // namespace
+
 std::vector<SliceAttribute> geometry_attributes(const RenderMesh& mesh, const Slice& slice) {
   using Kind = DracoAttribute::Kind;
   using Type = DracoAttribute::Type;
@@ -37,6 +49,19 @@ std::vector<SliceAttribute> geometry_attributes(const RenderMesh& mesh, const Sl
   if (!mesh.uvs.empty()) {
     attributes.push_back({"TEXCOORD_0", Kind::uv, Type::float32, 2, uv_bits,
                           gather<float>(slice, 2, [&](auto v, auto c) { return mesh.uvs[v][static_cast<int>(c)]; })});
+  }
+  if (has_colors(mesh, slice)) {
+    // glTF's are linear: 16 bits keep the 256 steps of sRGB apart. The opacity only fills the row to 8 bytes, as glTF
+    // wants its rows in multiples of 4.
+    attributes.push_back({"COLOR_0", Kind::color, Type::uint16, 4, 0,
+                          gather<std::uint16_t>(slice, 4,
+                                                [&](auto v, auto c) {
+                                                  if (c == 3) return std::uint16_t{0xFFFF};
+                                                  const glm::vec3 linear = linear_of_srgb(mesh.colors[v]);
+                                                  return static_cast<std::uint16_t>(
+                                                      std::lround(65535.0F * linear[static_cast<int>(c)]));
+                                                }),
+                          true});
   }
   return attributes;
 }

@@ -46,7 +46,7 @@ struct SliceAttribute {
   bool normalized = false;  ///< integers that represent 0..1
 };
 
-/// POSITION, NORMAL and TEXCOORD_0, if the mesh has them.
+/// POSITION, NORMAL, TEXCOORD_0 and COLOR_0, if the mesh has them.
 std::vector<SliceAttribute> geometry_attributes(const RenderMesh& mesh, const Slice& slice);
 
 }  // namespace semblante

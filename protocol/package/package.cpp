@@ -126,6 +126,7 @@ Model model_of_level(const Model& model, const LevelOfDetail& level) {
   out.positions = model.positions;
   out.uvs = model.uvs;
   out.normals = model.normals;
+  out.colors = model.colors;
   out.primitives = model.primitives;
   out.materials = model.materials;
   apply_level(out, level);
@@ -203,6 +204,7 @@ void describe_level(const Draft& draft, const Surface& surface, const Rig& rig, 
   document.mesh.attributes.normal = draft.encoded.attributes.normal;
   document.mesh.attributes.uv = draft.encoded.attributes.uv;
   document.mesh.attributes.material = draft.encoded.attributes.material;
+  document.mesh.attributes.color = draft.encoded.attributes.color;
   describe_influence(draft.table, draft.package.weights, weight_bits, draft.weight_error, document.weights);
   document.feature_points = name_points(surface, rig.points, draft.encoded.file_vertex);
   for (const Part& part : draft.parts) {

@@ -43,7 +43,8 @@ Result<RenderMesh> take_mesh(const FaceParts& parts, const RigDocument& rig) {
   for (const Status& taken : {take(ids.position, *decoded, &DracoMesh::vectors3, mesh.positions),
                               take(ids.normal, *decoded, &DracoMesh::vectors3, mesh.normals),
                               take(ids.uv, *decoded, &DracoMesh::vectors2, mesh.uvs),
-                              take(ids.material, *decoded, &DracoMesh::bytes, mesh.materials)}) {
+                              take(ids.material, *decoded, &DracoMesh::bytes, mesh.materials),
+                              take(ids.color, *decoded, &DracoMesh::colors, mesh.colors)}) {
     if (!taken) return taken.error();
   }
   for (glm::vec3& normal : mesh.normals) {  // octahedral coordinates are quantized, glTF requires unit length

@@ -36,6 +36,7 @@ RenderMesh make_render_mesh(const Model& model, const Surface& surface,
       mesh.normals.push_back(corner.normal == Model::no_index ? smooth[surface.surface_of[corner.vertex].value()]
                                                               : model.normals[corner.normal]);
       if (has_uvs) mesh.uvs.push_back(corner.uv == Model::no_index ? glm::vec2(0.0F) : model.uvs[corner.uv]);
+      if (!model.colors.empty()) mesh.colors.push_back(model.colors[corner.vertex]);
       mesh.materials.push_back(static_cast<std::uint8_t>(corner.material));
     }
     return at->second;

@@ -20,6 +20,7 @@ struct RenderMesh {
   std::vector<glm::vec3> positions;              ///< #R
   std::vector<glm::vec3> normals;                ///< #R, those of the file, else smooth ones
   std::vector<glm::vec2> uvs;                    ///< #R, or empty when the model has none
+  std::vector<Color8> colors;                    ///< #R, or empty when the model has none
   std::vector<std::uint8_t> materials;           ///< #R, numbers of MaterialAssignment
   std::vector<Triangle> triangles;               ///< #T by 3, in the model's order
   std::vector<std::uint8_t> triangle_materials;  ///< #T

@@ -14,7 +14,7 @@ export interface RigDocument {
     triangles: number;
     bytes: number;
     /** Draco unique ids of the attributes; null: the mesh has no such attribute. */
-    attributes: { position: number } & Record<'normal' | 'uv' | 'material' | 'file_vertex', number | null>;
+    attributes: { position: number } & Record<'normal' | 'uv' | 'material' | 'file_vertex' | 'color', number | null>;
   };
   weights: {
     sha256: string;
@@ -236,6 +236,7 @@ export function readRig(json: string): RigDocument {
         uv: orNull(attributes.member('uv'), natural),
         material: orNull(attributes.member('material'), natural),
         file_vertex: orNull(attributes.member('file_vertex'), natural),
+        color: attributes.optional('color')?.integer(0, 0xffffffff) ?? null,
       },
     },
     weights: {

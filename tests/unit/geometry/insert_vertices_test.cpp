@@ -60,6 +60,15 @@ TEST(InsertVertices, NoPlace_ChangesNothing) {
   EXPECT_TRUE(model.normals.empty());
 }
 
+TEST(InsertVertices, Colors_AreInterpolatedAsLight) {
+  Model model = make_square();
+  model.colors = {{0, 0, 0}, {255, 0, 0}, {255, 0, 0}, white, white, white};
+  const TrianglePlace place{0, {0.5, 0.25, 0.25}};
+  insert_vertices(model, build_surface(model), std::span(&place, 1));
+  ASSERT_EQ(model.colors.size(), 7U);
+  EXPECT_EQ(model.colors[6], (Color8{188, 0, 0})) << "half the light";
+}
+
 TEST(InsertVertices, InsideATriangle_SplitsItIntoThree_AndInterpolates) {
   Model model = make_square();
   const TrianglePlace place{0, {0.25, 0.25, 0.5}};

@@ -236,6 +236,49 @@ TEST(Decimate, VerticesSplitByAFileWithoutReasonAreOneAgain) {
   EXPECT_LE(used_vertices(levels[0].triangles).size(), 100U);
 }
 
+TEST(Decimate, ColorsKeepTheirBorders_UnlessEveryTriangleHasItsOwn) {
+  // Two halves, red and blue, with vertices of their own at the border between them.
+  Model model = make_grid(16, 16);
+  model.colors.assign(model.positions.size(), {255, 0, 0});
+  std::map<std::uint32_t, std::uint32_t> blue_of;
+  std::vector<bool> is_upper;
+  for (Triangle& t : model.triangles) {
+    is_upper.push_back(model.positions[t[0]].y + model.positions[t[1]].y + model.positions[t[2]].y > 24.0F);
+    for (std::uint32_t& v : t) {
+      if (!is_upper.back()) continue;
+      const auto [entry, is_new] = blue_of.try_emplace(v, static_cast<std::uint32_t>(model.positions.size()));
+      if (is_new) {
+        model.positions.push_back(glm::vec3(model.positions[v]));
+        model.colors.push_back({0, 0, 255});
+      }
+      v = entry->second;
+    }
+  }
+  const auto levels = decimate_to(model, {50});
+  ASSERT_EQ(levels.size(), 1U);
+  double blue = 0.0;
+  for (const Triangle& t : levels[0].triangles) {
+    EXPECT_EQ(model.colors[t[0]], model.colors[t[1]]);
+    EXPECT_EQ(model.colors[t[0]], model.colors[t[2]]);
+    if (model.colors[t[0]] == Color8{0, 0, 255}) blue += area_of(model, {t});
+  }
+  EXPECT_NEAR(blue, 128.0, 1e-3);
+
+  Model split = make_sheet(20);
+  const Model joined = split;
+  split.positions.clear();
+  for (Triangle& t : split.triangles) {
+    for (std::uint32_t& v : t) {
+      split.positions.push_back(joined.positions[v]);
+      v = static_cast<std::uint32_t>(split.positions.size() - 1);
+      split.colors.push_back(split.positions.size() % 6 < 3 ? Color8{200, 100, 50} : Color8{50, 100, 200});
+    }
+  }
+  const auto flat = decimate_to(split, {100});
+  ASSERT_EQ(flat.size(), 1U);
+  EXPECT_LE(flat[0].vertex_count, 100U);
+}
+
 TEST(Decimate, FlatShadedFilesLoseTheirNormalsAndOtherCreasesStay) {
   Model model = make_sheet(20);
   for (std::size_t t = 0; t < model.triangles.size(); ++t) {

@@ -15,7 +15,7 @@ FeaturePointId point(std::string_view id) { return *parse_feature_point(id); }
 RigDocument sample() {
   RigDocument rig;
   rig.name = "A \"head\" / of Zoë";
-  rig.mesh = {parse_sha256(std::string(64, 'a')).value(), 100, 180, 5000, {0, 1, 2, std::nullopt, 4}};
+  rig.mesh = {parse_sha256(std::string(64, 'a')).value(), 100, 180, 5000, {0, 1, 2, std::nullopt, 4, std::nullopt}};
   rig.weights = {parse_sha256(std::string(64, '1')).value(), 900, 12, 7, 4.5, 0.0001};
   rig.fapu.value = {0.01, 0.06, 0.04, std::nullopt, 0.05};
   rig.feature_points = {{point("2.1"), 99, {0.1F, -0.2F, 0.3F}}, {point("7.1"), std::nullopt, {0.0F, 1e-7F, -3.0F}}};

@@ -85,6 +85,7 @@ export const portugueseGltfFaults: Sentences = {
     'tem dados Draco em que a face {number} cita o ponto {point}, mas há {count}',
   'refers to Draco attribute {attribute}, which does not exist': 'cita o atributo {attribute} do Draco, que não existe',
   'refers to a Draco attribute of {count} components, but needs {needed}': 'cita um atributo do Draco de {count} componentes, mas precisa de {needed}',
+  'refers to a Draco attribute for colours that has no bytes': 'cita um atributo do Draco de cores que não tem bytes',
   'refers to a Draco attribute of an unsupported type': 'cita um atributo do Draco de um tipo que não é suportado',
   'has Draco data with points that have no value': 'tem dados Draco com pontos sem valor',
   'has Draco data with a number that is not finite': 'tem dados Draco com um número que não é finito',

@@ -1,5 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { featurePointIndex, ProtocolError, readRig } from '../../../../protocol/ts/index.ts';
+import type { RigDocument } from '../../../../protocol/ts/rig_document.ts';
 import { vectorJson } from './vectors.ts';
 
 type Json = Record<string, never>;
@@ -56,6 +57,15 @@ describe('readRig', () => {
     for (const name of Object.keys(good)) {
       expect(errorOf((json) => delete json[name])).toEqual({ where: `/${name}`, code: 'missing' });
     }
+  });
+
+  it('Read_Color_IsAnAttributeOrAbsent', () => {
+    expect(readRig(JSON.stringify(good)).mesh.attributes.color).toBeNull();
+    const json = structuredClone(good);
+    set('/mesh/attributes/color', 5)(json);
+    expect(readRig(JSON.stringify(json)).mesh.attributes.color).toBe(5);
+    const where = '/mesh/attributes/color';
+    expect(errorOf(set(where, -1))).toEqual({ where, code: 'out_of_range' });
   });
 
   it('Read_MovingParts_AreEmptyWhereTheDocumentHasNone', () => {
@@ -133,7 +143,9 @@ describe('readRig', () => {
     expect([format, version]).toEqual(['semblante.rig', 1]);
     // A document of before there were levels is the full mesh alone; one of before irises and tongue moved has none.
     const later = { lids: [null, null], companions: [], lower_lip: [], articulation: 1 };
-    expect(rig).toEqual({ lod: 0, levels: [], irises: [null, null], tongue: null, ...later, ...members });
+    const mesh = members['mesh'] as RigDocument['mesh'];
+    const withoutColors = { mesh: { ...mesh, attributes: { ...mesh.attributes, color: null } } };
+    expect(rig).toEqual({ lod: 0, levels: [], irises: [null, null], tongue: null, ...later, ...members, ...withoutColors });
   });
 });
 

@@ -1664,6 +1664,8 @@ export interface components {
                     uv: number | null;
                     material: number | null;
                     file_vertex: number | null;
+                    /** @description absent if the vertices have no colours */
+                    color?: number;
                 };
             };
             weights: {
