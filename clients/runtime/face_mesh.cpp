@@ -52,6 +52,9 @@ Result<FaceMesh> decode_mesh(std::span<const std::uint8_t> bytes, const RigDocum
   if (mesh.attributes.material) {
     decoded.materials = value_or_empty(draco->bytes(*mesh.attributes.material));
   }
+  if (mesh.attributes.color) {
+    decoded.colors = value_or_empty(draco->colors(*mesh.attributes.color));
+  }
   decoded.triangles = draco->triangles();
   return decoded;
 #else
