@@ -59,10 +59,13 @@ void write_obj(const Model& model, std::span<const glm::vec3> positions, std::os
   const glm::dmat4 to_file(model.to_file_frame);
   const bool mirrored = !same_frame && glm::determinant(glm::dmat3(to_file)) < 0.0;
   ObjText text(out);
-  for (const glm::vec3& position : positions) {
-    const glm::vec3 p = same_frame ? position : glm::vec3(glm::dvec3(to_file * glm::dvec4(position, 1.0)));
+  for (std::size_t v = 0; v < positions.size(); ++v) {
+    const glm::vec3 p = same_frame ? positions[v] : glm::vec3(glm::dvec3(to_file * glm::dvec4(positions[v], 1.0)));
     text << "v";
-    text.number(p.x).number(p.y).number(p.z).end_line();
+    text.number(p.x).number(p.y).number(p.z);
+    for (std::size_t c = 0; c < 3 && !model.colors.empty(); ++c)
+      text.number(static_cast<float>(model.colors[v][c]) / 255.0F);
+    text.end_line();
   }
   for (const glm::vec2& uv : model.uvs) {
     text << "vt";

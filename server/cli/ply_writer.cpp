@@ -29,12 +29,14 @@ void write_ply(const Model& model, std::span<const glm::vec3> positions, std::os
   const glm::dmat4 to_file(model.to_file_frame);
   const bool mirrored = !same_frame && glm::determinant(glm::dmat3(to_file)) < 0.0;
   out << "ply\nformat binary_little_endian 1.0\nelement vertex " << positions.size()
-      << "\nproperty float x\nproperty float y\nproperty float z\nelement face " << model.triangles.size()
-      << "\nproperty list uchar uint vertex_indices\nend_header\n";
+      << "\nproperty float x\nproperty float y\nproperty float z\n"
+      << (model.colors.empty() ? "" : "property uchar red\nproperty uchar green\nproperty uchar blue\n")
+      << "element face " << model.triangles.size() << "\nproperty list uchar uint vertex_indices\nend_header\n";
   std::string bytes;
-  for (const glm::vec3& position : positions) {
-    const glm::vec3 p = same_frame ? position : glm::vec3(glm::dvec3(to_file * glm::dvec4(position, 1.0)));
+  for (std::size_t v = 0; v < positions.size(); ++v) {
+    const glm::vec3 p = same_frame ? positions[v] : glm::vec3(glm::dvec3(to_file * glm::dvec4(positions[v], 1.0)));
     for (const float coordinate : {p.x, p.y, p.z}) append_bytes(bytes, coordinate);
+    if (!model.colors.empty()) append_bytes(bytes, model.colors[v]);
   }
   for (const Triangle& triangle : model.triangles) {
     append_bytes(bytes, std::uint8_t{3});

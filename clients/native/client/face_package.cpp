@@ -19,6 +19,15 @@ std::span<const std::uint8_t> as_bytes(std::string_view text) {
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
+void mark_colored(Model& model) {
+  for (Primitive& primitive : model.primitives) {
+    const auto first = model.triangles.begin() + primitive.first_triangle;
+    primitive.has_colors = std::any_of(first, first + primitive.triangle_count, [&](const Triangle& corners) {
+      return std::any_of(corners.begin(), corners.end(), [&](auto v) { return model.colors[v] != white; });
+    });
+  }
+}
+
 /// Triangles in runs of one material each; vertices keep their numbers.
 Result<Model> to_model(runtime::FaceMesh&& mesh, const RigDocument& rig) {
   Model model;
@@ -50,6 +59,8 @@ Result<Model> to_model(runtime::FaceMesh&& mesh, const RigDocument& rig) {
   if (!model.uvs.empty()) {
     model.uv_triangles = model.triangles;
   }
+  model.colors = std::move(mesh.colors);
+  if (!model.colors.empty()) mark_colored(model);
   model.normals = std::move(mesh.normals);
   if (!model.normals.empty()) {
     model.normal_triangles = model.triangles;

@@ -36,9 +36,16 @@ void append_point(std::string& text, const glm::vec3& p, char between) {
 
 std::string write_obj(const Model& model, std::span<const glm::vec3> positions) {
   std::string text = "# Semblante\n";
-  for (const glm::vec3& p : positions) {
+  for (std::size_t v = 0; v < positions.size(); ++v) {
     text += "v ";
-    append_point(text, p, ' ');
+    append_point(text, positions[v], ' ');
+    if (model.colors.empty()) continue;
+    text.pop_back();
+    for (const std::uint8_t channel : model.colors[v]) {
+      text += ' ';
+      append(text, static_cast<float>(channel) / 255.0F);
+    }
+    text += '\n';
   }
   const bool uvs = !model.uvs.empty() && model.uv_triangles.size() == model.triangles.size();
   for (std::size_t i = 0; uvs && i < model.uvs.size(); ++i) {
@@ -71,13 +78,14 @@ std::string write_obj(const Model& model, std::span<const glm::vec3> positions) 
 std::string write_ply(const Model& model, std::span<const glm::vec3> positions) {
   std::string text = "ply\nformat binary_little_endian 1.0\nelement vertex ";
   append(text, positions.size());
-  text += "\nproperty float x\nproperty float y\nproperty float z\nelement face ";
+  text += "\nproperty float x\nproperty float y\nproperty float z";
+  if (!model.colors.empty()) text += "\nproperty uchar red\nproperty uchar green\nproperty uchar blue";
+  text += "\nelement face ";
   append(text, model.triangles.size());
   text += "\nproperty list uchar uint vertex_indices\nend_header\n";
-  for (const glm::vec3& p : positions) {
-    append_bytes(text, p.x);
-    append_bytes(text, p.y);
-    append_bytes(text, p.z);
+  for (std::size_t v = 0; v < positions.size(); ++v) {
+    for (int axis = 0; axis < 3; ++axis) append_bytes(text, positions[v][axis]);
+    if (!model.colors.empty()) append_bytes(text, model.colors[v]);
   }
   for (const Triangle& triangle : model.triangles) {
     text += '\3';

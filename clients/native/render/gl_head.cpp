@@ -29,6 +29,7 @@ struct DynamicVertex {
 
 struct StaticVertex {
   glm::vec2 uv;
+  Color8 color;
 };
 
 template <class T>
@@ -140,14 +141,16 @@ struct GlHead::Impl {
     glVertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, sizeof(DynamicVertex), offset_of(offsetof(DynamicVertex, normal)));
     std::vector<StaticVertex> fixed(scene.file_vertex.size());
     for (std::size_t r = 0; r < fixed.size(); ++r) {
-      fixed[r] = {scene.uvs[r]};
+      fixed[r] = {scene.uvs[r], scene.colors[r]};
     }
     glGenBuffers(1, &static_buffer);
     glBindBuffer(GL_ARRAY_BUFFER, static_buffer);
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(fixed.size() * sizeof(StaticVertex)), fixed.data(),
                  GL_STATIC_DRAW);
     glVertexAttribPointer(2, 2, GL_FLOAT, GL_FALSE, sizeof(StaticVertex), offset_of(offsetof(StaticVertex, uv)));
-    for (GLuint attribute = 0; attribute < 3; ++attribute) {
+    glVertexAttribPointer(3, 3, GL_UNSIGNED_BYTE, GL_TRUE, sizeof(StaticVertex),
+                          offset_of(offsetof(StaticVertex, color)));
+    for (GLuint attribute = 0; attribute < 4; ++attribute) {
       glEnableVertexAttribArray(attribute);
     }
     glGenBuffers(1, &index_buffer);

@@ -122,6 +122,8 @@ Look look_of(const Model& model, const Primitive& primitive, std::optional<PartR
     if (look.alpha_mode == Material::AlphaMode::opaque) {
       look.alpha = 1.0F;
     }
+  } else if (primitive.has_colors) {
+    look.color = material != nullptr && !material->is_color_lost ? glm::vec3(material->base_color) : glm::vec3(1.0F);
   }
   return look;
 }

@@ -30,7 +30,7 @@ std::optional<Substance> substance_by_name(std::string_view name);
 
 /// The look of a primitive. A material with a texture or a colour keeps it; one without (or plain white or grey) gets
 /// the colour of its substance: by name first, then by role, which is never skin for clothing; without
-/// both skin.
+/// both skin. Vertices with colours of their own take none from the substance.
 Look look_of(const Model& model, const Primitive& primitive, std::optional<PartRole> role);
 
 }  // namespace semblante::render

@@ -35,6 +35,9 @@ Result<Unit> check(const Model& model) {
                    "a primitive refers to triangles or a material that do not exist"};
     }
   }
+  if (!model.colors.empty() && model.colors.size() != model.positions.size()) {
+    return Error{ErrorCode::mismatch, "colors", "must have one entry for each vertex"};
+  }
   if (!model.uv_triangles.empty() && model.uv_triangles.size() != model.triangles.size()) {
     return Error{ErrorCode::mismatch, "uv_triangles", "must have one entry for each triangle"};
   }
@@ -131,6 +134,7 @@ Result<Scene> build_scene(const Model& model, const SceneOptions& options) {
   Scene scene{.rest = model.positions,
               .file_vertex = {},
               .uvs = {},
+              .colors = {},
               .triangles = {},
               .runs = std::move(runs),
               .textures = std::move(textures),
@@ -156,6 +160,7 @@ Result<Scene> build_scene(const Model& model, const SceneOptions& options) {
       if (is_new) {
         scene.file_vertex.push_back(vertex);
         scene.uvs.push_back(uv < model.uvs.size() ? model.uvs[uv] : glm::vec2(0.0F));
+        scene.colors.push_back(model.colors.empty() ? white : model.colors[vertex]);
         positions.push_back(model.positions[vertex]);
         own_normals.push_back(normal < model.normals.size() ? model.normals[normal] : glm::vec3(0.0F));
         all.add(model.positions[vertex]);

@@ -39,6 +39,7 @@ struct Scene {
   std::vector<glm::vec3> rest;             ///< #V: file vertices of the neutral head
   std::vector<std::uint32_t> file_vertex;  ///< #R: the file vertex with the position of a drawn vertex
   std::vector<glm::vec2> uvs;              ///< #R
+  std::vector<Color8> colors;              ///< #R; white leaves the look as it is
   std::vector<Triangle> triangles;         ///< #T, drawn vertices
   std::vector<Run> runs;
   std::vector<Texture> textures;

@@ -17,6 +17,7 @@ inline constexpr const char* face_vertex = R"(#version 300 es
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 uv;
+layout(location = 3) in vec3 srgb;
 uniform mat4 to_clip;
 uniform mat4 to_light;
 uniform mat4 to_front_light;
@@ -24,9 +25,11 @@ uniform float shadow_offset;
 out vec3 at;
 out vec3 across;
 out vec2 texture_at;
+out vec3 tint;
 out vec4 in_light;
 out vec4 in_front_light;
 void main() {
+  tint = mix(pow((srgb + 0.055) / 1.055, vec3(2.4)), srgb / 12.92, lessThanEqual(srgb, vec3(0.04045)));
   at = position;
   across = normal;
   texture_at = uv;
@@ -45,6 +48,7 @@ precision highp sampler2DShadow;
 in vec3 at;
 in vec3 across;
 in vec2 texture_at;
+in vec3 tint;
 in vec4 in_light;
 in vec4 in_front_light;
 uniform vec3 camera;
@@ -90,7 +94,7 @@ vec3 shade(vec3 n, vec3 v, vec3 l, vec3 light, vec3 albedo, float shadow) {
 }
 
 void main() {
-  vec4 base = base_color;
+  vec4 base = vec4(tint, 1.0) * base_color;
   if (has_texture == 1) base *= texture(base_texture, texture_at);
   if (base.a < alpha_cutoff) discard;
   vec3 n = normalize(across);

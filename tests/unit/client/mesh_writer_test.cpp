@@ -10,6 +10,8 @@
 namespace semblante::testing {
 namespace {
 
+using namespace std::string_literals;
+
 Model triangle() {
   Model model;
   model.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
@@ -45,6 +47,18 @@ TEST(MeshWriter, Ply_HasHeaderThenBytes) {
   EXPECT_EQ(ply[body + 36], 3);
   EXPECT_NE(ply.find("element vertex 3\n"), std::string::npos);
   EXPECT_NE(ply.find("element face 1\n"), std::string::npos);
+}
+
+TEST(MeshWriter, Colors_FollowThePositions) {
+  Model model = triangle();
+  model.colors = {{255, 0, 51}, {0, 255, 0}, white};
+  EXPECT_NE(client::write_obj(model, model.positions).find("v 0 0 0 1 0 0.2\nv 1 0 0 0 1 0\nv 0 1 0 1 1 1\n"),
+            std::string::npos);
+  const std::string ply = client::write_ply(model, model.positions);
+  EXPECT_NE(ply.find("property uchar red\nproperty uchar green\nproperty uchar blue\nelement face"), std::string::npos);
+  const std::size_t body = ply.find("end_header\n") + 11;
+  ASSERT_EQ(ply.size() - body, 3U * 15 + 13);
+  EXPECT_EQ(ply.substr(body + 12, 3), "\xFF\0\x33"s);
 }
 
 TEST(MeshWriter, Table_HasALineAVertex) {

@@ -77,6 +77,32 @@ TEST(Renderer, TexturedBall_ShowsTheTexturesRows) {
   EXPECT_GT(below[2], below[0] + 50);
 }
 
+TEST(Renderer, VertexColors_LookLikeATextureOfTheirColor) {
+  constexpr Color8 color = {190, 110, 60};
+  const auto ball_of = [](std::vector<std::uint8_t> rgb) {
+    Model model = seamed_ball();
+    model.images.push_back({"image/png", encode_png(rgb, 1, 1, 3)});
+    model.materials.emplace_back();
+    model.materials[0].base_color_image = 0;
+    model.primitives[0].material = 0;
+    return model;
+  };
+  Model colored = ball_of({255, 255, 255});
+  colored.colors.assign(colored.positions.size(), color);
+  colored.primitives[0].has_colors = true;
+  Renderer of_colors = make(colored);
+  Renderer of_texture = make(ball_of({color.begin(), color.end()}));
+  const Picture picture = draw(of_colors);
+  EXPECT_LT(render::mean_difference(picture, draw(of_texture)), 0.5);
+
+  // Without a material they are the whole look, not that of skin under them.
+  colored.primitives[0].material = -1;
+  colored.colors.assign(colored.positions.size(), {40, 60, 200});
+  Renderer of_colors_alone = make(colored);
+  const Rgb middle = pixel(draw(of_colors_alone), 48, 48);
+  EXPECT_GT(middle[2], middle[0] + 80);
+}
+
 TEST(Renderer, FullyMaskedAndClearMaterials_AreNotDrawn) {
   for (const auto mode : {Material::AlphaMode::mask, Material::AlphaMode::blend}) {
     Model model = seamed_ball();

@@ -36,6 +36,11 @@ TEST(Scene, InvalidModels_AreRefusedByName) {
     model.uv_triangles.pop_back();
     EXPECT_EQ(build_scene(model).error().where, "uv_triangles");
   }
+  {
+    Model model = seamed_ball();
+    model.colors.resize(3);
+    EXPECT_EQ(build_scene(model).error().where, "colors");
+  }
 }
 
 TEST(Scene, BrokenImage_IsLeftOutWithAWarning) {
