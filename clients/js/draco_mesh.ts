@@ -51,6 +51,8 @@ export interface FaceMesh {
   normals: Float32Array | null;
   /** #V by 2, or null */
   uvs: Float32Array | null;
+  /** #V by 3: sRGB, multiplied with the look of the material as linear light; or null */
+  colors: Uint8Array | null;
   /** #V: index into the rig's materials; null: all vertices have the first material */
   materials: Uint8Array | null;
   /** #V: number of the vertex in the model's file, or null */
@@ -101,12 +103,14 @@ export function decodeMesh(draco: DracoModule, bytes: Uint8Array, rig: RigDocume
     const { attributes } = rig.mesh;
     const normals = attribute('normals', attributes.normal, draco.DT_FLOAT32, 3);
     const uvs = attribute('UVs', attributes.uv, draco.DT_FLOAT32, 2);
+    const colors = attribute('colours', attributes.color, draco.DT_UINT8, 3);
     const materials = attribute('materials', attributes.material, draco.DT_UINT8, 1);
     const fileVertices = attribute('file vertices', attributes.file_vertex, draco.DT_UINT32, 1);
     const result: FaceMesh = {
       positions: new Float32Array(attribute('positions', attributes.position, draco.DT_FLOAT32, 3)!),
       normals: normals && new Float32Array(normals),
       uvs: uvs && new Float32Array(uvs),
+      colors: colors && new Uint8Array(colors),
       materials: materials && new Uint8Array(materials),
       fileVertices: fileVertices && new Uint32Array(fileVertices),
       triangles: new Uint32Array(

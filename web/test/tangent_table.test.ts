@@ -26,6 +26,7 @@ function ramp(n: number): DrawableMesh {
     positions,
     normals,
     uvs: null,
+    colors: null,
     indices: new Uint32Array(indices),
     groups: [],
     rowOffsets: Uint32Array.from({ length: count + 1 }, (_, v) => v),

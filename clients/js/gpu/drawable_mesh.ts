@@ -19,6 +19,8 @@ export interface DrawableMesh {
   normals: Float32Array;
   /** #V by 2, or null */
   uvs: Float32Array | null;
+  /** #V by 3, sRGB, or null */
+  colors: Uint8Array | null;
   indices: Uint32Array;
   groups: MaterialGroup[];
   rowOffsets: Uint32Array;
@@ -94,12 +96,12 @@ const dot = (values: Float32Array, a: number, b: number): number =>
 
 /** Converts the package's arrays for the view: normals of unit length, triangles sorted by material. */
 export function drawableMesh({ mesh, influence, rig }: Face): DrawableMesh {
-  const { positions, uvs, triangles } = mesh;
+  const { positions, uvs, colors, triangles } = mesh;
   const normals = mesh.normals ?? smoothNormals(positions, triangles, joinSeams(positions, null));
   normalize(normals);
   const { indices, groups } = sortByMaterial(triangles, mesh.materials, rig.materials.length);
   const { vertexCount, rowOffsets, rowPoints, rowWeights, rigid, turn } = influence;
-  return { vertexCount, positions, normals, uvs, indices, groups, rowOffsets, rowPoints, rowWeights, rigid, turn };
+  return { vertexCount, positions, normals, uvs, colors, indices, groups, rowOffsets, rowPoints, rowWeights, rigid, turn };
 }
 
 /** Normalizes in place: quantized normals decode to slightly other lengths, and the shader assumes unit length. */

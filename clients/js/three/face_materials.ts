@@ -11,11 +11,16 @@ import {
 import type { FaceMaterial } from '../gpu/face_material.ts';
 import { studioMaterial } from './studio_material.ts';
 
-export function makeMaterials(facts: readonly FaceMaterial[], richSkin: boolean): Promise<Material[]> {
-  return Promise.all(facts.map((one) => makeMaterial(one, richSkin)));
+/** `vertexColors`: whether the mesh has them. */
+export function makeMaterials(
+  facts: readonly FaceMaterial[],
+  richSkin: boolean,
+  vertexColors: boolean,
+): Promise<Material[]> {
+  return Promise.all(facts.map((one) => makeMaterial(one, richSkin, vertexColors)));
 }
 
-async function makeMaterial(facts: FaceMaterial, richSkin: boolean): Promise<Material> {
+async function makeMaterial(facts: FaceMaterial, richSkin: boolean, vertexColors: boolean): Promise<Material> {
   const [r, g, b, a] = facts.baseColor;
   const material = new MeshStandardMaterial({
     name: facts.name,
@@ -25,6 +30,7 @@ async function makeMaterial(facts: FaceMaterial, richSkin: boolean): Promise<Mat
     opacity: facts.alphaMode === 'blend' ? a : 1,
     transparent: facts.alphaMode === 'blend',
     alphaTest: facts.alphaMode === 'mask' ? facts.alphaCutoff : 0,
+    vertexColors,
   });
   if (facts.baseColorImage) material.map = await makeTexture(facts.baseColorImage, true);
   if (facts.normalImage) {

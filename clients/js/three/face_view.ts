@@ -1,10 +1,12 @@
 import {
   BufferAttribute,
   BufferGeometry,
+  Color,
   DynamicDrawUsage,
   Mesh,
   MeshDepthMaterial,
   RGBADepthPacking,
+  SRGBColorSpace,
   Uint32BufferAttribute,
   type Material,
 } from 'three';
@@ -14,6 +16,13 @@ import type { DrawableMesh } from '../gpu/drawable_mesh.ts';
 import { makeTangentTable, type TangentTable } from '../gpu/tangent_table.ts';
 import type { Pose } from '../kernel.ts';
 import { deformByCpu, deformByShader, makeDeformUniforms, setPose, type DeformUniforms } from './deform_material.ts';
+
+/** three.js takes the colours of vertices as linear light. */
+function linearColors(srgb: Uint8Array): Float32Array {
+  const grey = new Color();
+  const light = Float32Array.from({ length: 256 }, (_, i) => grey.setRGB(i / 255, 0, 0, SRGBColorSpace).r);
+  return Float32Array.from(srgb, (value) => light[value]!);
+}
 
 export type DeformPath = 'gpu' | 'wasm';
 
@@ -34,6 +43,7 @@ export class FaceView {
     geometry.setAttribute('position', new BufferAttribute(mesh.positions.slice(), 3).setUsage(DynamicDrawUsage));
     geometry.setAttribute('normal', new BufferAttribute(mesh.normals.slice(), 3).setUsage(DynamicDrawUsage));
     if (mesh.uvs) geometry.setAttribute('uv', new BufferAttribute(mesh.uvs, 2));
+    if (mesh.colors) geometry.setAttribute('color', new BufferAttribute(linearColors(mesh.colors), 3));
     geometry.setAttribute('faceRow', new Uint32BufferAttribute(rowNumbers(mesh, this.table), 2));
     geometry.setIndex(new BufferAttribute(mesh.indices, 1));
     for (const group of mesh.groups) geometry.addGroup(group.start, group.count, group.material);

@@ -15,7 +15,7 @@ import {
  */
 export function studioMaterial(material: Material, richSkin: boolean): Material {
   if (!(material instanceof MeshStandardMaterial)) return material;
-  const bare = material.map === null && !(material.vertexColors ?? false);
+  const bare = material.map === null && !material.vertexColors;
   const { r, g, b } = material.color;
   if (bare && Math.min(r, g, b) > whiteLevel) material.color.copy(new Color(bareSkinColor));
   material.metalness = Math.min(material.metalness, mostMetalness);

@@ -28,6 +28,8 @@ interface Images {
   share: number;
 }
 
+type Values = Float32Array | Uint32Array | Uint8Array;
+
 interface Loaded {
   mesh: DrawableMesh;
   table: TangentTable;
@@ -153,8 +155,11 @@ export class FaceRenderer implements GraphicsUser {
       this.attribute(program, 'position', mesh.positions, 3);
       this.attribute(program, 'normal', mesh.normals, 3);
       if (mesh.uvs) this.attribute(program, 'uv', mesh.uvs, 2);
+      if (mesh.colors) this.attribute(program, 'srgb', mesh.colors, 3);
       this.attribute(program, 'faceRow', rowsOfVertices, 2);
     }
+    // Of all vertices of meshes without colours: it belongs to the context.
+    gl.vertexAttrib3f(gl.getAttribLocation(this.graphics.program.program, 'srgb'), 1, 1, 1);
     this.fill(gl.ELEMENT_ARRAY_BUFFER, mesh.indices);
     gl.bindVertexArray(null);
     this.images = materials.map(() => ({ base: null, normal: null, share: 1 }));
@@ -162,17 +167,18 @@ export class FaceRenderer implements GraphicsUser {
     this.onChange();
   }
 
-  private attribute(program: WebGLProgram, name: string, values: Float32Array | Uint32Array, size: number): void {
+  private attribute(program: WebGLProgram, name: string, values: Values, size: number): void {
     const { gl } = this;
     const at = gl.getAttribLocation(program, name);
     if (at < 0) return;
     this.fill(gl.ARRAY_BUFFER, values);
     gl.enableVertexAttribArray(at);
     if (values instanceof Uint32Array) gl.vertexAttribIPointer(at, size, gl.UNSIGNED_INT, 0, 0);
+    else if (values instanceof Uint8Array) gl.vertexAttribPointer(at, size, gl.UNSIGNED_BYTE, true, 0, 0);
     else gl.vertexAttribPointer(at, size, gl.FLOAT, false, 0, 0);
   }
 
-  private fill(target: number, values: Float32Array | Uint32Array): void {
+  private fill(target: number, values: Values): void {
     const buffer = this.gl.createBuffer();
     this.gl.bindBuffer(target, buffer);
     this.gl.bufferData(target, values, this.gl.STATIC_DRAW);
@@ -328,8 +334,9 @@ export class FaceRenderer implements GraphicsUser {
     const isSkin = this.quality.richSkin && isSkinLike(facts.name, facts.roughness, blended);
     const hasImage = facts.base_color_image !== null;
     const [r, g, b, a] = facts.base_color;
-    // Until its image is there, and without one, a plain white material of skin has a skin's colour.
-    const bare = Math.min(r, g, b) > whiteLevel && (!hasImage || isSkinLike(facts.name, facts.roughness, blended));
+    // Until its image is there, and without one, a plain white material of skin has a skin's colour, unless its vertices
+    // have theirs.
+    const bare = !this.loaded!.mesh.colors && Math.min(r, g, b) > whiteLevel && (!hasImage || isSkinLike(facts.name, facts.roughness, blended));
     gl.uniform4f(set('baseColor'), r, g, b, a);
     gl.uniform4fv(set('plainColor'), bare ? [...linear(bareSkinColor), a] : hasImage && blended ? [r, g, b, 0] : [r, g, b, a]);
     gl.uniform1f(set('mapShare'), images.base ? images.share : 0);

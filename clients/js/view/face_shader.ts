@@ -12,14 +12,17 @@ export const faceVertex = /* glsl */ `${deformed}
 in vec3 position;
 in vec3 normal;
 in vec2 uv;
+in vec3 srgb;
 uniform mat4 camera;
 uniform mat4 shadowCamera;
 uniform float shadowOffset;
 out vec3 place;
 out vec3 facing;
 out vec2 mapPlace;
+out vec3 tint;
 out vec3 shadowPlace;
 void main() {
+  tint = mix(pow((srgb + 0.055) / 1.055, vec3(2.4)), srgb / 12.92, lessThanEqual(srgb, vec3(0.04045)));
   vec3 p = position;
   vec3 n = normal;
   faceDeform(p, n);
@@ -77,6 +80,7 @@ uniform float shadowSoftness;
 in vec3 place;
 in vec3 facing;
 in vec2 mapPlace;
+in vec3 tint;
 in vec3 shadowPlace;
 out vec4 color;
 
@@ -154,6 +158,7 @@ vec3 toneMapped(vec3 c) {
 void main() {
   vec4 base = mix(plainColor, baseColor * texture(baseMap, mapPlace), mapShare);
   if (base.a < alphaTest) discard;
+  base.rgb *= tint;
   float side = gl_FrontFacing ? 1.0 : -1.0;
   vec3 n = side * normalize(facing);
   vec3 change = max(abs(dFdx(n)), abs(dFdy(n)));

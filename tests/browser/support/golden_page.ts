@@ -24,6 +24,7 @@ function deformAll(given: GoldenMesh, poses: Record<keyof Pose, number[]>[]): nu
     positions: Float32Array.from(given.positions),
     normals: Float32Array.from(given.normals),
     uvs: null,
+    colors: null,
     indices: Uint32Array.from(given.indices),
     groups: [],
     rowOffsets: Uint32Array.from(given.rowOffsets),

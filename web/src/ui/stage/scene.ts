@@ -285,7 +285,7 @@ export class SceneView {
       };
     }
     const { mesh, rig } = still;
-    const view = new FaceView(mesh, await makeMaterials(still.materials, this.quality.richSkin));
+    const view = new FaceView(mesh, await makeMaterials(still.materials, this.quality.richSkin, mesh.colors !== null));
     view.usePath('wasm'); // at rest, without a pose
     const framing = { head: framedHead([{ positions: mesh.positions, triangles: mesh.indices }]), points: rig.feature_points.map(({ position }) => position) };
     return () => {
@@ -339,7 +339,7 @@ export class SceneView {
 
   private async openFace(model: Model, signal: AbortSignal): Promise<{ view: FaceView; loaded: LoadedFace }> {
     const loaded = await this.sources.face(model, this.level.value, signal);
-    const materials = await makeMaterials(loaded.materials, this.quality.richSkin);
+    const materials = await makeMaterials(loaded.materials, this.quality.richSkin, loaded.mesh.colors !== null);
     return { view: new FaceView(loaded.mesh, materials), loaded };
   }
 
