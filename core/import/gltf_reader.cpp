@@ -18,6 +18,7 @@
 #include "core/import/gltf_vertex_transform.h"
 #include "core/import/model_builder.h"
 #include "core/import/text.h"
+#include "core/import/vertex_colors.h"
 #include "core/json/json_tree.h"
 #include "core/types/printable.h"
 
@@ -99,6 +100,24 @@ class PrimitiveData {
     if (values && !document_.failed()) return std::move(*values);
     if (!values) id.fail(values.error().code, values.error().message);
     return {};
+  }
+
+  /// Of COLOR_0: three components, or four with an opacity, and the number that is full light. Whole numbers that are
+  /// not marked as normalized, against the standard, are bytes or shorts all the same.
+  struct ColorLayout {
+    std::size_t components;
+    float full;
+  };
+  [[nodiscard]] ColorLayout color_layout() const {
+    const auto accessor = accessor_of("COLOR_0");
+    if (!accessor) return {3, 1.0F};
+    const JsonCursor item = document_.item("accessors", *accessor);
+    const std::size_t components = item.text_or("type", "") == "VEC4" ? 4 : 3;
+    if (item.boolean_or("normalized", false)) return {components, 1.0F};
+    constexpr std::uint64_t u8 = 5121;
+    constexpr std::uint64_t u16 = 5123;
+    const std::uint64_t type = item.integer_or("componentType", 0);
+    return {components, type == u8 ? 255.0F : type == u16 ? 65535.0F : 1.0F};
   }
 
   [[nodiscard]] std::vector<std::uint32_t> indices(std::size_t vertex_count, std::size_t max_count) const {
@@ -278,16 +297,13 @@ class GltfReader {
       builder_.model.positions.push_back(
           transform.position(i, glm::vec3(positions[3 * i], positions[3 * i + 1], positions[3 * i + 2])));
     }
-    if (data.has("COLOR_0") && !has_colors_) {
-      builder_.warn("vertex colours are omitted: the face has the colours of its materials");
-      has_colors_ = true;
-    }
+    const bool has_colors = read_colors(data, count);
     const bool has_uvs = read_uvs(data, material, count);
     const bool has_normals = read_normals(data, transform, count);
     if (document_.failed() || placement == nullptr) return;
     morph_targets_.read(mesh, primitive, first, count, transform);
 
-    builder_.begin_primitive(name, material ? static_cast<int>(*material) : -1);
+    builder_.begin_primitive(name, material ? static_cast<int>(*material) : -1, has_colors);
     add_triangles(primitive, data,
                   Range{first, static_cast<std::uint32_t>(count), has_uvs, has_normals, transform.mirrors()});
   }
@@ -304,6 +320,23 @@ class GltfReader {
       if (!source.is_identity) uv = glm::vec2(glm::dvec2(source.transform * glm::dvec3(uv, 1.0)));
       builder_.model.uvs.push_back(uv);
     }
+    return true;
+  }
+
+  /// Their opacity is that of the material alone.
+  bool read_colors(const PrimitiveData& data, std::size_t count) {
+    if (!data.has("COLOR_0")) return false;
+    const auto [components, full] = data.color_layout();
+    const std::vector<float> values = data.floats("COLOR_0", components, count, PrimitiveData::NotFinite::zero);
+    if (document_.failed()) return false;
+    GivenColors given;
+    given.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const float* const at = values.data() + i * components;
+      given.emplace_back(at[0], at[1], at[2]);
+    }
+    builder_.model.colors.resize(builder_.model.positions.size() - count, white);
+    append_colors(given, full, ColorSpace::linear, builder_.model.colors);
     return true;
   }
 
@@ -377,7 +410,6 @@ class GltfReader {
   ModelBuilder builder_;
   MorphTargets morph_targets_;
   std::vector<UvSource> uv_sources_;
-  bool has_colors_ = false;
   std::vector<MeshPlacements> placements_;  ///< per mesh
   std::vector<MeshSize> sizes_;             ///< per mesh
   Box scene_box_;                           ///< of all meshes in their first places

@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/import/text.h"
+#include "core/import/vertex_colors.h"
 #include "core/types/printable.h"
 
 namespace semblante::import {
@@ -113,19 +114,21 @@ std::optional<std::string> lost_shape(const Model& model) {
 
 }  // namespace
 
-void ModelBuilder::begin_primitive(const std::string& name, int material) {
+void ModelBuilder::begin_primitive(const std::string& name, int material, bool has_colors) {
   if (!model.primitives.empty()) {
     Primitive& last = model.primitives.back();
     if (last.triangle_count == 0) {
       last.name = name;
       last.material = material;
+      last.has_colors = has_colors;
       return;
     }
-    if (last.name == name && last.material == material) return;
+    if (last.name == name && last.material == material && last.has_colors == has_colors) return;
   }
   Primitive next;
   next.name = name;
   next.material = material;
+  next.has_colors = has_colors;
   next.first_triangle = static_cast<std::uint32_t>(model.triangles.size());
   model.primitives.push_back(std::move(next));
 }
@@ -159,6 +162,9 @@ Result<Model> ModelBuilder::finish(std::string format) && {
     warn(std::to_string(degenerate_) + " triangles that use a vertex twice were omitted");
   }
   if (auto lost = lost_shape(model)) warn(std::move(*lost));
+  if (!model.colors.empty()) model.colors.resize(model.positions.size(), white);
+  if (keep_seen_colors(model))
+    warn("all vertex colours are black and are omitted: the face has those of its materials");
   model.warnings = warnings_.sentences();
   while (!model.primitives.empty() && model.primitives.back().triangle_count == 0) model.primitives.pop_back();
   normalize_normals(model);

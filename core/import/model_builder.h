@@ -20,15 +20,16 @@ struct Corner {
 
 /// Common part of all readers: collects triangles in file order under the current primitive, omits those with a
 /// repeated vertex, and establishes the invariants of Model at the end. Readers fill model.positions, uvs, normals,
-/// materials and images themselves, and check every index before add_triangle.
+/// colors, materials and images themselves, and check every index before add_triangle.
 class ModelBuilder {
  public:
   explicit ModelBuilder(const ImportLimits& limits) : limits_(limits) {}
 
   Model model;
 
-  /// Starts a primitive with this name (printable()) and material (-1: none) for the following triangles.
-  void begin_primitive(const std::string& name, int material);
+  /// Starts a primitive with this name (printable()) and material (-1: none) for the following triangles. `has_colors`:
+  /// some of its vertices have a colour in model.colors.
+  void begin_primitive(const std::string& name, int material, bool has_colors = false);
   void add_triangle(const Corner& a, const Corner& b, const Corner& c);
   void warn(std::string message) { warnings_.add(std::move(message)); }
 

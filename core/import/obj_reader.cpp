@@ -1,5 +1,6 @@
 #include "core/import/obj_reader.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <map>
@@ -10,6 +11,7 @@
 #include "core/import/obj_materials.h"
 #include "core/import/polygon.h"
 #include "core/import/text.h"
+#include "core/import/vertex_colors.h"
 #include "core/types/letter_case.h"
 #include "core/types/printable.h"
 
@@ -36,11 +38,11 @@ class ObjReader {
       return Error{ErrorCode::malformed, first_unknown_, "not an OBJ statement, and the file has no faces"};
     }
     if (Status status = check_forward_references(); !status) return status.error();
-    add_triangles();
     if (library_) {
       for (Material& material : builder_.model.materials) library_->fill(material);
     }
-    if (has_colors_) builder_.warn("vertex colours are omitted: the face has the colours of its materials");
+    add_colors();
+    add_triangles();
     if (unknown_lines_ > 0) {
       builder_.warn(std::to_string(unknown_lines_) + " lines are not OBJ statements and were skipped; the first is " +
                     first_unknown_);
@@ -111,7 +113,7 @@ class ObjReader {
   }
 
   /// Reads `minimum` to `out.size()` numbers; missing ones keep their values, the rest of the line is ignored.
-  Status read_numbers(std::string_view rest, std::string_view what, std::size_t minimum, std::span<float> out) {
+  Status read_numbers(std::string_view& rest, std::string_view what, std::size_t minimum, std::span<float> out) {
     for (std::size_t i = 0; i < out.size(); ++i) {
       const std::string_view token = next_token(rest);
       if (token.empty() || token.front() == '#') {
@@ -132,16 +134,28 @@ class ObjReader {
     return Unit{};
   }
 
-  /// x y z, then optionally w (of rational curves) or a colour, which are ignored.
+  /// x y z, then optionally w (of rational curves), which is ignored, or a colour with or without an opacity.
   Status read_position(std::string_view rest) {
     std::array<float, 3> p{};
     if (Status status = read_numbers(rest, "v", 3, p); !status) return status;
-    std::size_t numbers = 0;
-    for (auto token = next_token(rest); !token.empty() && token.front() != '#'; token = next_token(rest)) ++numbers;
-    has_colors_ = has_colors_ || numbers >= 6;
     if (builder_.model.positions.size() >= limits_.max_vertices) return too_many("vertices", limits_.max_vertices);
     builder_.model.positions.emplace_back(p[0], p[1], p[2]);
+    read_color(rest);
     return Unit{};
+  }
+
+  /// The numbers after the position that was read last.
+  void read_color(std::string_view rest) {
+    glm::vec3 color = no_color;
+    std::size_t count = 0;
+    for (auto token = next_token(rest); !token.empty() && token.front() != '#'; token = next_token(rest), ++count) {
+      float number = 0.0F;
+      if (count < 3 && parse_number(token, number) == NumberFault::none) color[static_cast<int>(count)] = number;
+    }
+    if (count < 3) return;
+    colors_.resize(builder_.model.positions.size(), no_color);
+    colors_.back() = color;
+    faulty_colors_ += is_color(color) ? 0 : 1;
   }
 
   Status read_uv(std::string_view rest) {
@@ -288,13 +302,55 @@ class ObjReader {
     sections_.push_back({polygons_.size(), name_, material_});
   }
 
+  void add_colors() {
+    if (colors_.empty()) return;
+    append_colors(colors_, full_light(colors_, ColorNumbers::reals), ColorSpace::srgb, builder_.model.colors);
+    builder_.model.colors.resize(builder_.model.positions.size(), white);
+    colors_.resize(builder_.model.positions.size(), no_color);
+    if (faulty_colors_ > 0) builder_.warn(warning_of_faulty_colors(faulty_colors_));
+  }
+
+  /// Whether the polygons from `first` to before `end` show colours of vertices. They do not if their material has an
+  /// image: programs write the colours of the image to the vertices too.
+  [[nodiscard]] bool are_colored(std::size_t first, std::size_t end, int material) const {
+    if (colors_.empty() || first == end) return false;
+    if (material >= 0 && builder_.model.materials[static_cast<std::size_t>(material)].base_color_image >= 0)
+      return false;
+    const std::size_t last = end < polygons_.size() ? polygons_[end] : corners_.size();
+    const auto corners = std::span(corners_).subspan(polygons_[first], last - polygons_[first]);
+    return std::any_of(corners.begin(), corners.end(), [&](const Corner& c) { return is_color(colors_[c.vertex]); });
+  }
+
+  /// A material without its colour: the vertices have it instead. Material files have a grey beside such vertices.
+  int without_color(int material) {
+    if (material < 0) return material;
+    Material copy = builder_.model.materials[static_cast<std::size_t>(material)];
+    const glm::vec4 uncolored(1.0F, 1.0F, 1.0F, copy.base_color.a);
+    if (copy.base_color == uncolored) return material;
+    const auto [entry, is_new] =
+        without_color_.try_emplace(material, static_cast<int>(builder_.model.materials.size()));
+    if (!is_new) return entry->second;
+    copy.base_color = uncolored;
+    builder_.model.materials.push_back(std::move(copy));
+    return entry->second;
+  }
+
+  void begin_section(std::size_t section) {
+    const Section& s = sections_[section];
+    const std::size_t end = section + 1 < sections_.size() ? sections_[section + 1].first_polygon : polygons_.size();
+    const bool are_these_colored = are_colored(s.first_polygon, end, s.material);
+    builder_.begin_primitive(s.name, are_these_colored ? without_color(s.material) : s.material, are_these_colored);
+  }
+
   void add_triangles() {
+    const std::size_t before = sections_.empty() ? polygons_.size() : sections_.front().first_polygon;
+    builder_.begin_primitive("", -1, are_colored(0, before, -1));
     Triangulator triangulator;
     std::vector<glm::vec3> positions;
     std::size_t section = 0;
     for (std::size_t i = 0; i < polygons_.size(); ++i) {
       for (; section < sections_.size() && sections_[section].first_polygon <= i; ++section) {
-        builder_.begin_primitive(sections_[section].name, sections_[section].material);
+        begin_section(section);
       }
       const std::size_t end = i + 1 < polygons_.size() ? polygons_[i + 1] : corners_.size();
       const std::span<const Corner> corners = std::span(corners_).subspan(polygons_[i], end - polygons_[i]);
@@ -322,7 +378,9 @@ class ObjReader {
   std::string first_unknown_;
   std::optional<ObjMaterials> library_;
   int libraries_ = 0;
-  bool has_colors_ = false;
+  GivenColors colors_;  ///< of the first vertices: empty, or up to the last that has one
+  std::size_t faulty_colors_ = 0;
+  std::map<int, int> without_color_;  ///< the number of each material's copy
 };
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "core/import/ply_values.h"
 #include "core/import/polygon.h"
 #include "core/import/text.h"
+#include "core/import/vertex_colors.h"
 
 namespace semblante::import {
 namespace {
@@ -69,6 +70,32 @@ class PlyReader {
     return std::nullopt;
   }
 
+  /// The indices of red, green and blue among the properties.
+  static std::optional<std::array<std::size_t, 3>> find_colors(const PlyElement& element) {
+    static constexpr std::array<std::array<std::string_view, 3>, 3> names = {
+        {{"red", "green", "blue"}, {"diffuse_red", "diffuse_green", "diffuse_blue"}, {"r", "g", "b"}}};
+    for (const auto& [r, g, b] : names) {
+      const auto red = element.find(r);
+      const auto green = element.find(g);
+      const auto blue = element.find(b);
+      if (red && green && blue) return std::array<std::size_t, 3>{*red, *green, *blue};
+    }
+    return std::nullopt;
+  }
+
+  static ColorNumbers numbers_of(PlyType type) {
+    switch (type) {
+      case PlyType::i8:
+      case PlyType::u8:
+        return ColorNumbers::bytes;
+      case PlyType::f32:
+      case PlyType::f64:
+        return ColorNumbers::reals;
+      default:
+        return ColorNumbers::integers;
+    }
+  }
+
   Result<float> to_float(double value, std::string_view name) const {
     if (std::abs(value) <= static_cast<double>(std::numeric_limits<float>::max())) return static_cast<float>(value);
     return Error{ErrorCode::not_finite, source_.where(), "property " + shown(name) + " is not a finite number"};
@@ -99,7 +126,9 @@ class PlyReader {
     }
     has_normals_ = places[3] != none && places[4] != none && places[5] != none;
     has_uvs_ = places[6] != none;
-    if (element.find("red")) builder_.warn("vertex colours are omitted: the face has the colours of its materials");
+    const auto colors = find_colors(element);
+    if (!colors && element.find("red")) builder_.warn("vertex colours are omitted: green or blue is missing");
+    GivenColors given;
     std::vector<double> values(element.properties.size());
     for (std::uint64_t i = 0; i < element.count && !source_.fault(); ++i) {
       if (Status status = read_properties(element, values); !status) return status;
@@ -119,8 +148,16 @@ class PlyReader {
         builder_.model.normals.push_back(has_whole_normal ? glm::vec3(wanted[3], wanted[4], wanted[5])
                                                           : glm::vec3(0.0F));
       if (has_uvs_) builder_.model.uvs.emplace_back(wanted[6], 1.0F - wanted[7]);
+      if (colors) given.emplace_back(values[(*colors)[0]], values[(*colors)[1]], values[(*colors)[2]]);
     }
+    if (colors) add_colors(given, numbers_of(element.properties[(*colors)[0]].type));
     return Unit{};
+  }
+
+  void add_colors(const GivenColors& given, ColorNumbers numbers) {
+    append_colors(given, full_light(given, numbers), ColorSpace::srgb, builder_.model.colors);
+    const auto faulty = given.size() - static_cast<std::size_t>(std::count_if(given.begin(), given.end(), is_color));
+    if (faulty > 0) builder_.warn(warning_of_faulty_colors(faulty));
   }
 
   /// One element's scalars; its lists are skipped.
@@ -153,6 +190,7 @@ class PlyReader {
   Status read_lists(const PlyElement& element, ListReader read) {
     auto list = element.find("vertex_indices");
     if (!list) list = element.find("vertex_index");
+    are_faces_colored_ = are_faces_colored_ || element.find("red");
     if (!list || !element.properties[*list].list_size) {
       return Error{ErrorCode::missing, "", "element " + shown(element.name) + " has no list 'vertex_indices'"};
     }
@@ -248,6 +286,9 @@ class PlyReader {
                        std::to_string(builder_.model.positions.size())};
     }
     if (short_faces_ > 0) builder_.warn(std::to_string(short_faces_) + " faces with fewer than 3 corners were omitted");
+    if (are_faces_colored_ && builder_.model.colors.empty())
+      builder_.warn("colours of faces are omitted: only those of vertices are read");
+    builder_.begin_primitive("", -1, !builder_.model.colors.empty());
     Triangulator triangulator;
     std::vector<glm::vec3> positions;
     for (std::size_t i = 0; i < polygons_.size(); ++i) {
@@ -277,7 +318,7 @@ class PlyReader {
   PlyValues source_;
   ModelBuilder builder_;
   const ImportLimits& limits_;
-  bool has_vertices_ = false, has_normals_ = false, has_uvs_ = false;
+  bool has_vertices_ = false, has_normals_ = false, has_uvs_ = false, are_faces_colored_ = false;
   std::vector<std::uint32_t> corners_;
   std::vector<std::uint32_t> polygons_;  ///< first corner of each
   std::size_t triangles_ = 0;

@@ -17,7 +17,7 @@ namespace {
 constexpr int samples = 4;  // a pixel is the mean of samples by samples places
 
 // Linear RGB.
-const glm::vec3 white(0.85F, 0.84F, 0.81F);
+const glm::vec3 sclera_white(0.85F, 0.84F, 0.81F);
 const glm::vec3 inner(0.20F, 0.25F, 0.24F);
 const glm::vec3 outer(0.07F, 0.12F, 0.15F);
 const glm::vec3 border(0.02F);
@@ -26,13 +26,13 @@ const glm::vec3 black(0.006F);
 /// At a place in radii of the iris.
 glm::vec3 color_at(float x, float y) {
   const float r = std::hypot(x, y);
-  if (r > 1.1F) return white;
+  if (r > 1.1F) return sclera_white;
   const float angle = std::atan2(y, x);
   const float fibres = 0.84F + 0.16F * std::sin(angle * 23.0F) * std::sin(angle * 9.0F + 1.0F);
   glm::vec3 color = glm::mix(inner, outer, glm::smoothstep(pupil_of_iris, 0.95F, r)) * fibres;
   color = glm::mix(color, border, glm::smoothstep(0.84F, 0.98F, r));
   color = glm::mix(black, color, glm::smoothstep(pupil_of_iris - 0.03F, pupil_of_iris + 0.03F, r));
-  return glm::mix(color, white, glm::smoothstep(0.96F, 1.05F, r));
+  return glm::mix(color, sclera_white, glm::smoothstep(0.96F, 1.05F, r));
 }
 
 std::uint8_t srgb(float linear) {
@@ -72,7 +72,7 @@ Image eye_texture(float span) { return square(span, 3, color_at, add_color); }
 Image cornea_texture(float span) {
   const auto alpha_at = [](float x, float y) { return std::hypot(x, y) < 1.0F ? 0.0F : 1.0F; };
   return square(span, 4, alpha_at, [](float alpha, std::vector<std::uint8_t>& pixels) {
-    add_color(white, pixels);
+    add_color(sclera_white, pixels);
     pixels.push_back(static_cast<std::uint8_t>(std::lround(255.0F * alpha)));
   });
 }

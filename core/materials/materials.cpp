@@ -9,6 +9,7 @@ namespace semblante {
 namespace {
 
 constexpr std::size_t max_materials = 255;
+constexpr int plain_count = static_cast<int>(Plain::neutral) + 1;
 
 /// Skin, teeth and eyes hide what lies behind them. A viewer does not sort the triangles of a blended material, so that
 /// the back of the head would show through its face.
@@ -35,13 +36,21 @@ Material solid(Material material) {
   return material;
 }
 
+/// For vertices with colours of their own: the plain material, which tells viewers what kind of surface it is, in
+/// white, which leaves the colours as they are.
+Material colored(Plain plain) {
+  Material material = plain_material(plain);
+  material.base_color = glm::vec4(1.0F, 1.0F, 1.0F, material.base_color.a);
+  return material;
+}
+
 }  // namespace
 
 MaterialAssignment assign_materials(const Model& model, const Surface& surface, std::span<const Part> parts) {
   MaterialAssignment out;
   out.of_triangle.resize(model.triangles.size());
-  // Numbered in order of first use, so that unused materials are omitted. Negative keys are the plain materials,
-  // those from the number of the model's on its solid ones.
+  // Numbered in order of first use, so that unused materials are omitted. Negative keys are the plain materials, first
+  // those with a colour of their own; those from the number of the model's on its solid ones.
   std::map<int, std::uint8_t> number_of;
   const auto number_for = [&](int key, const Material& material) {
     const auto known = number_of.find(key);
@@ -63,7 +72,9 @@ MaterialAssignment assign_materials(const Model& model, const Surface& surface, 
       const PartRole role = part.value() < parts.size() ? parts[part.value()].role : PartRole::skin;
       const Plain plain =
           plain_of(own != nullptr ? std::string_view(own->name) : std::string_view(), primitive.name, role);
-      if (!has_look)
+      if (!has_look && primitive.has_colors)
+        out.of_triangle[t] = number_for(-1 - plain_count - static_cast<int>(plain), colored(plain));
+      else if (!has_look)
         out.of_triangle[t] = number_for(-1 - static_cast<int>(plain), plain_material(plain));
       else if (is_solid(*own, plain))
         out.of_triangle[t] = number_for(primitive.material + static_cast<int>(model.materials.size()), solid(*own));

@@ -92,8 +92,9 @@ class EyePainter {
       : model_(model), surface_(surface), parts_(parts), look_(look), eyes_(look.eyes) {
     fit_discs();
     for (const Primitive& primitive : model.primitives) {
+      if (!has_look(model, primitive)) continue;
       const Material* const own = material_of(model, primitive);
-      if (own == nullptr || says_nothing(*own) || is_eye_white(*own) || is_film(*own)) continue;
+      if (own != nullptr && (is_film(*own) || (is_eye_white(*own) && !primitive.has_colors))) continue;
       const std::size_t end = std::size_t{primitive.first_triangle} + primitive.triangle_count;
       for (std::size_t t = primitive.first_triangle; t < end; ++t) {
         if (const auto side = side_of(model.triangles[t])) has_own_iris_[*side] = true;
@@ -113,6 +114,7 @@ class EyePainter {
     const bool is_cornea = is_cornea_[part_of(corners).value()];
     if (has_own_iris_[*side] && !is_cornea) return {};
     const Material* const own = material_of(model_, primitive);
+    if (primitive.has_colors) return {};
     if (own != nullptr && (is_film(*own) || !(says_nothing(*own) || is_eye_white(*own)))) return {};
     const PartRole role = *side == 0 ? PartRole::left_eye : PartRole::right_eye;
     const Plain plain =

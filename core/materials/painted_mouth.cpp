@@ -10,8 +10,8 @@ namespace semblante {
 namespace {
 
 bool is_plain_skin(const Model& model, const Primitive& primitive, PartRole role) {
+  if (has_look(model, primitive)) return false;
   const Material* const own = material_of(model, primitive);
-  if (own != nullptr && !says_nothing(*own)) return false;
   return plain_of(own != nullptr ? std::string_view(own->name) : std::string_view(), primitive.name, role) ==
          Plain::skin;
 }

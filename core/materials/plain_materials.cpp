@@ -102,4 +102,9 @@ bool says_nothing(const Material& material) {
   return material.is_color_lost || (material.base_color_image < 0 && glm::vec3(material.base_color) == glm::vec3(1.0F));
 }
 
+bool has_look(const Model& model, const Primitive& primitive) {
+  const Material* const own = material_of(model, primitive);
+  return primitive.has_colors || (own != nullptr && !says_nothing(*own));
+}
+
 }  // namespace semblante

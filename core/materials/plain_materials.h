@@ -23,4 +23,7 @@ const Material* material_of(const Model& model, const Primitive& primitive);
 /// or its image could not be read.
 bool says_nothing(const Material& material);
 
+/// Whether the file gives a primitive a look: colours of its vertices, or a material that tells something.
+bool has_look(const Model& model, const Primitive& primitive);
+
 }  // namespace semblante

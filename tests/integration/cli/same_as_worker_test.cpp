@@ -34,7 +34,7 @@ std::string head_obj(Stance stance, bool is_mask) {
   text << std::setprecision(9);
   for (const glm::vec3& position : model.positions) {
     const glm::dvec3 p = stance(position);
-    text << "v " << p.x << " " << p.y << " " << p.z << " 1 1 1\n";  // with a colour, for a warning of the import
+    text << "v " << p.x << " " << p.y << " " << p.z << " 0 0 0\n";  // black, for a warning of the import
   }
   for (const Triangle& t : model.triangles) {
     const bool is_front = model.positions[t[0]].z > 0.02F;

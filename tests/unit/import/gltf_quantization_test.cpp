@@ -151,15 +151,5 @@ TEST(TextureTransform, NormalMapThatLiesOtherwise_IsLeftOut_WithAWarning) {
   EXPECT_EQ(model->warnings.size(), 1U);
 }
 
-TEST(VertexColors, AreSaidToBeLeftOut) {
-  GltfWriter writer;
-  writer.add_quad();
-  writer.primitive()["attributes"]["COLOR_0"] = writer.accessor(writer.view(Bytes(16, 200)), u8, 4, "VEC4", true);
-  const auto model = writer.import();
-  ASSERT_TRUE(model) << model.error().message;
-  ASSERT_EQ(model->warnings.size(), 1U);
-  EXPECT_NE(model->warnings[0].find("vertex colours"), std::string::npos);
-}
-
 }  // namespace
 }  // namespace semblante::test

@@ -92,7 +92,7 @@ TEST(Ply, EverythingWeRead_ComesOutAsWritten) {
   EXPECT_EQ(model->uvs[0], glm::vec2(0.25F, 0.75F));
   EXPECT_EQ(model->triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
   EXPECT_EQ(model->uv_triangles, model->triangles);
-  EXPECT_EQ(model->warnings.size(), 2U);  // the colours, and the face of two corners
+  EXPECT_EQ(model->warnings.size(), 2U);  // the colours without green, and the face of two corners
 }
 
 // ---- Triangle strips: element tristrips, one list, -1 between strips

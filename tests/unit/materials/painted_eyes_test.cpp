@@ -119,6 +119,14 @@ std::vector<double> brightness_at(const Eyes& eyes, float r, const glm::vec3& ga
   return seen;
 }
 
+TEST(PaintEyes, ColorsOfVertices_AreALookOfTheirOwn) {
+  Eyes eyes;
+  eyes.model.colors.assign(eyes.model.positions.size(), {90, 120, 160});
+  eyes.model.primitives[0].has_colors = true;
+  eyes.paint();
+  EXPECT_TRUE(eyes.model.materials.empty());
+}
+
 TEST(PaintedEyes, PupilAndIris_AreRound_OnACoarseBall_AroundTheGaze) {
   for (const glm::vec3& gaze : {glm::vec3(0.0F, 0.0F, 1.0F), glm::vec3(0.2F, -0.1F, 1.0F)}) {
     Eyes eyes(gaze);

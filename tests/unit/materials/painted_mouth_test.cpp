@@ -51,6 +51,13 @@ TEST(PaintMouth, DividesPlainSkin_WhereAllCornersAreInside) {
   EXPECT_EQ(next, strip.model.triangles.size());
 }
 
+TEST(PaintMouth, LeavesColorsOfVertices) {
+  StripWithAMouth strip;
+  strip.model.colors.assign(strip.model.positions.size(), {200, 150, 120});
+  strip.model.primitives[0].has_colors = true;
+  EXPECT_EQ(strip.painted(), Names(6, "skin"));
+}
+
 TEST(PaintMouth, LeavesALookOfTheFile_OtherPartsAndHeadsWithoutAMouth) {
   StripWithAMouth coloured;
   coloured.model.materials.emplace_back();

@@ -14,6 +14,7 @@
 #include "protocol/cpp/rig_document.h"
 #include "protocol/cpp/weights_format.h"
 #include "protocol/package/mesh_encoding.h"
+#include "protocol/package/packed_face.h"
 #include "protocol/package/render_mesh.h"
 
 namespace semblante {
@@ -199,6 +200,84 @@ TEST(Materials, AColourThatIsLost_IsThatOfTheRole_AndClothNeverLooksLikeSkin) {
   EXPECT_EQ(look("Material.005", PartRole::upper_teeth, true), "teeth");
   EXPECT_EQ(look("Skin", PartRole::left_eye, true), "sclera");
   EXPECT_EQ(look("N00_000_00_FaceEyeline_00_FACE", PartRole::attached, true), "lashes");
+}
+
+/// The grid with colours of its first part, all but its unused vertex and the loose triangle.
+Model make_colored_model() {
+  Model model = make_model();
+  model.colors.assign(model.positions.size(), white);
+  for (std::uint32_t v = 0; v <= side * side; ++v) {
+    const auto level = static_cast<std::uint8_t>(v);
+    model.colors[v] = {level, 100, static_cast<std::uint8_t>(255 - level)};
+  }
+  model.primitives[0].triangle_count -= 1;  // to the loose triangle, which is the other's
+  model.primitives[0].has_colors = true;
+  return model;
+}
+
+TEST(Materials, OfVerticesWithColors_AreWhite_UnlessTheFileHasAnother) {
+  Model model = make_colored_model();
+  const Surface surface = build_surface(model);
+  const MaterialAssignment assigned = assign_materials(model, surface, {});
+  ASSERT_EQ(assigned.materials.size(), 2U);
+  EXPECT_EQ(assigned.materials[0].name, "skin") << "tells viewers what surface it is";
+  EXPECT_EQ(assigned.materials[0].base_color, glm::vec4(1.0F));
+  EXPECT_EQ(assigned.materials[1].name, "green");
+  model.primitives[0].material = 0;
+  EXPECT_EQ(assign_materials(model, surface, {}).materials.size(), 1U) << "colours multiply the file's material";
+  model.primitives[0].material = -1;
+  model.primitives[0].name = "EyeOcclusion";
+  EXPECT_LT(assign_materials(model, surface, {}).materials[0].base_color.a, 0.1F) << "still a film";
+}
+
+TEST(EncodeMesh, Colors_AreExact_AndWithoutThemNothingChanges) {
+  const Model model = make_colored_model();
+  const auto encoded = encode_mesh(render(model, build_surface(model)));
+  ASSERT_TRUE(encoded.ok()) << encoded.error().message;
+  ASSERT_TRUE(encoded->attributes.color);
+  const auto decoded = DracoMesh::decode(encoded->bytes);
+  ASSERT_TRUE(decoded.ok());
+  const auto colors = decoded->colors(*encoded->attributes.color);
+  ASSERT_TRUE(colors.ok()) << colors.error().message;
+  ASSERT_EQ(colors->size(), encoded->file_vertex.size());
+  for (std::size_t v = 0; v < colors->size(); ++v) EXPECT_EQ((*colors)[v], model.colors[encoded->file_vertex[v]]);
+  EXPECT_FALSE(decoded->colors(encoded->attributes.normal).ok()) << "floats are no bytes";
+  EXPECT_FALSE(decoded->colors(encoded->attributes.material).ok()) << "one component";
+
+  Model plain = model;
+  plain.colors.clear();
+  EXPECT_FALSE(encode_mesh(render(plain, build_surface(plain)))->attributes.color);
+}
+
+TEST(Package, Colors_AreInAllFiles_AndOnlyThen) {
+  const Model model = make_colored_model();
+  const Surface surface = build_surface(model);
+  const Rig rig = make_rig(model);
+  const auto package = build_package(model, surface, rig, {"Grid", 12, {}, {}});
+  ASSERT_TRUE(package.ok()) << package.error().message;
+  const auto text = [](const Artefact& artefact) { return std::string(artefact.bytes.begin(), artefact.bytes.end()); };
+  const std::string rig_json = text(package->rig_json);
+  EXPECT_NE(rig_json.find("\"color\":"), std::string::npos);
+  const auto face =
+      open_package({package->mesh_drc.bytes, package->weights.bytes, rig_json,
+                    [&](const Sha256&) -> Result<std::vector<std::uint8_t>> { return model.images[0].bytes; }});
+  ASSERT_TRUE(face.ok()) << face.error().where << face.error().message;
+  EXPECT_EQ(face->mesh.colors.size(), face->mesh.positions.size());
+  EXPECT_THAT(face->mesh.colors, testing::Contains(model.colors[0]));
+
+  const auto preview = build_preview(model, surface, {});
+  ASSERT_TRUE(preview.ok());
+  const auto count_in = [](const std::string& glb) {
+    std::size_t count = 0;
+    for (std::size_t at = glb.find("COLOR_0"); at != std::string::npos; at = glb.find("COLOR_0", at + 1)) ++count;
+    return count;
+  };
+  EXPECT_EQ(count_in({preview->begin(), preview->end()}), 1U) << "of the part with colours only";
+  EXPECT_EQ(count_in(text(package->face_glb)), 2U) << "as an attribute, and as one of its Draco data";
+  Model plain = model;
+  plain.colors.clear();
+  const auto without = build_package(plain, surface, rig, {"Grid", 12, {}, {}});
+  EXPECT_EQ(text(without->rig_json).find("\"color\":"), std::string::npos);
 }
 
 TEST(EncodeMesh, DecodedOrder_NamesTheFileVertexOfEveryPosition) {

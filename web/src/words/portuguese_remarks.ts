@@ -24,7 +24,11 @@ export const portugueseRemarks: Sentences = {
   'the file shows its morph target {target} at {weight}; the head is read without it':
     'o arquivo mostra o seu morph target {target} em {weight}; a cabeça é lida sem ele',
   '{target} has the same name {name} as an earlier target and is omitted': '{target} tem o mesmo nome {name} de um morph target anterior e ficou de fora',
-  'vertex colours are omitted: the face has the colours of its materials': 'as cores de vértices ficaram de fora: o rosto tem as cores dos seus materiais',
+  'vertex colours are omitted: green or blue is missing': 'as cores de vértices ficaram de fora: falta o verde ou o azul',
+  'all vertex colours are black and are omitted: the face has those of its materials':
+    'todas as cores de vértices são pretas e ficaram de fora: o rosto tem as dos seus materiais',
+  'colours of faces are omitted: only those of vertices are read': 'as cores de faces ficaram de fora: só as de vértices são lidas',
+  '{count} vertices have a colour that is not three numbers: they are white': '{count} vértices têm uma cor que não é de três números: são brancos',
   '{count} faces with fewer than 3 corners were omitted': '{count} faces com menos de 3 cantos ficaram de fora',
   '{count} lines are not OBJ statements and were skipped; the first is {line}':
     '{count} linhas não são instruções de OBJ e foram puladas; a primeira é {line}',
