@@ -30,6 +30,9 @@ constexpr double pose_weight = 1.0 / 6.0;
 constexpr double border_weight = 4.0;
 /// Weight of edge length, to prefer short edges where the surface is flat and all collapses are equivalent.
 constexpr double distance_weight = 1e-3;
+/// The same where the colours of vertices change, for a change by all of the light: they are painted by vertices alone,
+/// so that an iris or a brow is lost with them, however flat it is.
+constexpr double color_weight = 0.3;
 /// Maximum rotation of a triangle by one collapse, at rest: cosine of 60 degrees.
 constexpr double most_turn = 0.5;
 /// Minimum cosine between a triangle's normal and the full surface's normals at its corners.
@@ -268,16 +271,35 @@ class FaceModule : public OpenMesh::Decimater::ModBaseT<MeshT> {
     return sum / 3.0;
   }
 
+  /// The greatest square of a difference between the colours of a triangle's corners, in sRGB: 1 for black and white.
+  [[nodiscard]] double contrast_of(const Face& face) const {
+    const std::span<const Color8> colors = group_->all.colors;
+    if (colors.empty()) return 0.0;
+    const auto color_at = [&](std::size_t c) {
+      return colors[group_->all.corners.corners[face.corners[c]].file_vertex];
+    };
+    int most = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Color8 a = color_at(c);
+      const Color8 b = color_at((c + 1) % 3);
+      int sum = 0;
+      for (std::size_t k = 0; k < a.size(); ++k) sum += (a[k] - b[k]) * (a[k] - b[k]);
+      most = std::max(most, sum);
+    }
+    return most / (3.0 * 255.0 * 255.0);
+  }
+
   void add_plane(const Face& face, std::size_t pose) {
     const glm::dvec3 area = area_of(face, pose);
     const double twice_area = glm::length(area);
     if (twice_area <= 0.0) return;
     const double weight = importance_of(face) * twice_area / 6.0;
+    const double place_weight = distance_weight + color_weight * contrast_of(face);
     const Quadric plane = plane_quadric(area / twice_area, group_->position(pose, face.vertices[0]), weight);
     for (const int v : face.vertices) {
       Quadric& sum = quadric(static_cast<std::size_t>(v), pose);
       sum += plane;
-      sum += point_quadric(group_->position(pose, v), distance_weight * weight);
+      sum += point_quadric(group_->position(pose, v), place_weight * weight);
     }
   }
 

@@ -27,6 +27,7 @@ struct DecimationMesh {
   std::span<const std::vector<glm::dvec3>> poses;
   const std::vector<bool>& fixed;      ///< #S, never removed
   std::span<const double> importance;  ///< #S, factors of the price of errors there
+  std::span<const Color8> colors;      ///< of the file's vertices, or empty
 };
 
 /// How far to follow a history: every collapse up to this price, but not below that many corners. A collapse is priced

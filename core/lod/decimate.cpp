@@ -222,7 +222,7 @@ Result<std::vector<LevelOfDetail>> decimate(const Model& model, const Surface& s
   for (const LodPose& pose : options.poses) poses.push_back(on_surface(surface, pose.positions));
   const std::vector<bool> fixed = fixed_vertices(surface, model, rig.points, rig.influence);
   const std::vector<double> importance = importance_of_vertices(surface, rig);
-  const DecimationMesh mesh{corners, model.uvs, surface.positions, poses, fixed, importance};
+  const DecimationMesh mesh{corners, model.uvs, surface.positions, poses, fixed, importance, model.colors};
   const double least_share =
       least_of_share * options.budgets.back() / static_cast<double>(std::max<std::size_t>(corners.corners.size(), 1));
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include "core/lod/level_error.h"
@@ -277,6 +278,21 @@ TEST(Decimate, ColorsKeepTheirBorders_UnlessEveryTriangleHasItsOwn) {
   const auto flat = decimate_to(split, {100});
   ASSERT_EQ(flat.size(), 1U);
   EXPECT_LE(flat[0].vertex_count, 100U);
+}
+
+TEST(Decimate, VerticesStayWhereColorsChange) {
+  Model model = make_sheet(40);
+  const auto near_spot = [&] {
+    std::size_t count = 0;
+    const auto levels = decimate_to(model, {300});
+    for (const std::uint32_t v : used_vertices(levels.at(0).triangles))
+      count += glm::distance(model.positions[v], {20.0F, 20.0F, model.positions[v].z}) < 6.0F ? 1 : 0;
+    return count;
+  };
+  const std::size_t without = near_spot();
+  for (const glm::vec3& p : model.positions)
+    model.colors.push_back(glm::distance(p, {20.0F, 20.0F, p.z}) < 4.0F ? Color8{60, 40, 30} : Color8{220, 180, 160});
+  EXPECT_GT(near_spot(), without * 3 / 2);
 }
 
 TEST(Decimate, FlatShadedFilesLoseTheirNormalsAndOtherCreasesStay) {
