@@ -79,6 +79,7 @@ export const lidFields = {
   /** 0: the lids do not slide */
   opening: 4,
   ball: 7,
+  lift: lidFloats - 1,
   count: lidFloats,
 } as const;
 
@@ -369,8 +370,8 @@ export function flatten(sets: readonly DisplacementSet[]): Float32Array {
 /** The float members of semblante_lids in order. */
 function lidNumbers(lids: RigLids | null): number[] {
   if (lids === null) return new Array<number>(lidFloats).fill(0);
-  const { gaze, slit, opening, gaze_share, ball } = lids;
-  return [...gaze, slit, opening, ...gaze_share, ...ball];
+  const { gaze, slit, opening, gaze_share, ball, lift = 0 } = lids;
+  return [...gaze, slit, opening, ...gaze_share, ...ball, lift];
 }
 
 /** The float members of semblante_rig up to its companions, in order. A missing FAPU is 0. */

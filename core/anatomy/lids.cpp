@@ -154,6 +154,13 @@ std::optional<Lids> find_lids(const Surface& surface, const EyeEdges& edges, con
   return lids;
 }
 
+double radius_towards(const Lids& lids, const glm::dvec3& pole, const glm::dvec3& d) {
+  const double cosine = std::clamp(glm::dot(d, pole) / glm::length(d), 0.0, 1.0);
+  const double at = std::sqrt(1.0 - cosine) * (Lids::ball_places - 1);
+  const auto k = std::min(static_cast<std::size_t>(at), Lids::ball_places - 2);
+  return std::lerp(lids.ball[k], lids.ball[k + 1], at - static_cast<double>(k));
+}
+
 std::optional<Sphere> hiding_ball(const Rig& rig, std::size_t eye) {
   if (!has_part(rig.parts, eyeball_role(eye)) || !rig.lids[eye]) return std::nullopt;
   const auto& radii = rig.lids[eye]->ball;

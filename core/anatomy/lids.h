@@ -24,6 +24,10 @@ inline constexpr double least_slit = 0.001;
 std::optional<Lids> find_lids(const Surface& surface, const EyeEdges& edges, const Rig& rig, std::size_t eye,
                               const ModelledEye* modelled = nullptr);
 
+/// The distance of the eyeball's surface from the eye's pivot in the direction `d`, with the eye turned so that `gaze`
+/// is `pole`. Not for a zero vector.
+double radius_towards(const Lids& lids, const glm::dvec3& pole, const glm::dvec3& d);
+
 /// The eyeball as a sphere about its pivot, with its least radius: what lies behind it is hidden. Empty if the eyeball
 /// is no part of its own, or if no lids roll on it.
 std::optional<Sphere> hiding_ball(const Rig& rig, std::size_t eye);

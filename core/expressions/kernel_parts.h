@@ -23,6 +23,7 @@ inline semblante_lids to_kernel(const std::optional<Lids>& lids) {
   result.opening = lids->opening;
   std::copy(lids->gaze_share.begin(), lids->gaze_share.end(), std::begin(result.gaze_share));
   std::copy(lids->ball.begin(), lids->ball.end(), std::begin(result.ball));
+  result.lift = lids->lift;
   return result;
 }
 

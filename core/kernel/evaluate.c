@@ -12,9 +12,9 @@
 /* JavaScript uses fixed offsets of these structs (README.md): they must not change. */
 _Static_assert(sizeof(semblante_frame) == 284 && offsetof(semblante_frame, fap) == 8, "frame");
 _Static_assert(sizeof(semblante_iris) == 24 && sizeof(semblante_tongue) == 44, "iris, tongue");
-_Static_assert(sizeof(semblante_lids) == 96 && sizeof(semblante_companion) == 8, "lids, companion");
-_Static_assert(sizeof(semblante_rig) == 364 && offsetof(semblante_rig, lids) == 172, "rig");
-_Static_assert(sizeof(semblante_pose) == 1428 && offsetof(semblante_pose, lid_closure) == 1220, "pose");
+_Static_assert(sizeof(semblante_lids) == 100 && sizeof(semblante_companion) == 8, "lids, companion");
+_Static_assert(sizeof(semblante_rig) == 372 && offsetof(semblante_rig, lids) == 172, "rig");
+_Static_assert(sizeof(semblante_pose) == 1436 && offsetof(semblante_pose, lid_closure) == 1220, "pose");
 #endif
 
 /* Weighted sum of two entries of a table of displacement sets at one FP. Entries out of range count as zero. */

@@ -101,7 +101,9 @@ LANE_FUNCTION void clear_ball(const semblante_lid_roll* roll, mask where, reg wa
                               reg p[3]) {
   const reg zero = all_lanes(0.0F);
   const semblante_lids* const lids = roll->lids;
-  const float wanted = roll->clearance;
+  const reg risen = p[1] - rest[1];
+  const reg height = within(choose(less(risen, zero), -risen, risen), 0.0F, lids->opening);
+  const reg wanted = roll->clearance + lids->lift * height;
   const reg d[3] = {p[0] - roll->ball_center[0], p[1] - roll->ball_center[1], p[2] - roll->ball_center[2]};
   const reg own = known != NULL ? *known : clearance_at_rest(lids, roll->pivot, rest);
   const reg distance = square_root(dot_product(d, d));
@@ -110,7 +112,7 @@ LANE_FUNCTION void clear_ball(const semblante_lid_roll* roll, mask where, reg wa
   const reg grown = own + within(gained, 0.0F, 1.0F) * (wanted - own);
   /* What lies deeper on the neutral face is the inside of a lid: hidden. */
   const reg clearance =
-      choose(at_least(own, all_lanes(wanted)), all_lanes(wanted), choose(less(all_lanes(-wanted), own), grown, own));
+      choose(at_least(own, wanted), wanted, choose(less(all_lanes(-roll->clearance), own), grown, own));
   const reg least = radius_towards(lids, roll->pole, d, distance) + clearance;
   where &= less(distance, least); /* false at the pivot */
   /* Forwards, so that the height stays that of Eq. 7; at the border of the ball away from its centre. */

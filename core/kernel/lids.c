@@ -12,6 +12,9 @@
  * (radians): eyes that are closed or hardly open on the neutral face can open. */
 #define WIDEST 0.75F
 #define WIDEST_SLIT 0.75F
+/* ... and no farther than to this angle from the middle of the slit (radians), which lids of people do not reach: of
+ * large eyes the gap between lid and eyeball would be seen. */
+#define WIDEST_RIM 1.0F
 /* The gaze of lids is no steeper than this (radians). */
 #define STEEPEST 0.8F
 /* A lid keeps this clearance from the ball, as a share of the ball's radius, or what it has on the neutral face if that
@@ -33,6 +36,17 @@ void semblante_stop_lids(int eye, semblante_pose* pose) {
   *lower = *lower > opening ? opening : *lower;
 }
 
+/* The least closure of a lid: negative, how far it opens beyond neutral. */
+static float widest_closure(float slit) {
+  if (!(slit > 0.0F)) {
+    return -WIDEST;
+  }
+  if (slit * (1.0F + WIDEST) < WIDEST_SLIT) {
+    return 1.0F - WIDEST_SLIT / slit;
+  }
+  return clamped(0.5F - WIDEST_RIM / slit, -WIDEST, 0.0F);
+}
+
 void semblante_close_lids(int eye, float pitch, semblante_pose* pose) {
   const semblante_lids* const lids = &pose->lids[eye];
   float* const closure = pose->lid_closure[eye];
@@ -40,10 +54,7 @@ void semblante_close_lids(int eye, float pitch, semblante_pose* pose) {
   if (!(lids->opening > 0.0F)) {
     return;
   }
-  float widest = -WIDEST;
-  if (lids->slit > 0.0F && lids->slit * (1.0F + WIDEST) < WIDEST_SLIT) {
-    widest = 1.0F - WIDEST_SLIT / lids->slit;
-  }
+  const float widest = widest_closure(lids->slit);
   float upper = clamped(-pose->fp[SEMBLANTE_UPPER_LID(eye) * 3 + 1] / lids->opening, widest, 1.0F);
   float lower = clamped(pose->fp[SEMBLANTE_LOWER_LID(eye) * 3 + 1] / lids->opening, widest, 1.0F);
   if (lids->slit > 0.0F) {
@@ -87,7 +98,7 @@ void semblante_prepare_lid_roll(int eye, const semblante_pose* pose, const sembl
   for (uint32_t k = 0; k < SEMBLANTE_BALL_PLACES; ++k) {
     largest = lids->ball[k] > largest ? lids->ball[k] : largest;
   }
-  const float reach = 1.001F * (largest + roll->clearance); /* more than any rounding */
+  const float reach = 1.001F * (largest + roll->clearance + lids->lift * lids->opening); /* more than any rounding */
   roll->square_reach = reach * reach;
   roll->moves = ball_moves || roll->closure[0] != 0.0F || roll->closure[1] != 0.0F || !is_zero(roll->upper) ||
                 !is_zero(roll->lower);

@@ -65,7 +65,7 @@ typedef struct semblante_tongue {
   float roll_limit; /* radians: the roll is clamped to it, because the tongue would intersect itself beyond */
 } semblante_tongue;
 
-/* The lids of one eye on the neutral face. They slide round the eye's axis: the line through its pivot along x. 96
+/* The lids of one eye on the neutral face. They slide round the eye's axis: the line through its pivot along x. 100
  * bytes. */
 typedef struct semblante_lids {
   float gaze[3];       /* unit vector from the pivot through the pupil: the pole of `ball` */
@@ -74,6 +74,8 @@ typedef struct semblante_lids {
   float gaze_share[2]; /* upper, lower lid: share of the eye's pitch that the middle of the open lid follows */
   /* Distance of the eyeball's surface from the pivot, at equal steps of sqrt(1 - cosine of the angle to the pole). */
   float ball[SEMBLANTE_BALL_PLACES];
+  /* A vertex rises from the ball by this share of its way: lids of few vertices are flat between them. */
+  float lift;
 } semblante_lids;
 
 /* A feature point that follows another one: `share` of the displacement of `leader`, with what the leader itself

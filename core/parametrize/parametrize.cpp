@@ -20,6 +20,7 @@
 #include "core/anatomy/point_lookup.h"
 #include "core/anatomy/tongue_shape.h"
 #include "core/geometry/unfolded_surface.h"
+#include "core/parametrize/coarse_lids.h"
 #include "core/parametrize/fapu.h"
 #include "core/parametrize/influence.h"
 #include "core/parametrize/own_shapes.h"
@@ -184,6 +185,7 @@ void find_moving_parts(const Model& model, const Surface& surface, const std::ve
   }
   rig.rigid_of_vertex.reserve(surface.surface_of.size());
   for (const SurfaceVertexId vertex : surface.surface_of) rig.rigid_of_vertex.push_back(motion[vertex.value()]);
+  if (rolls) lift_coarse_lids(model, rig);
 }
 
 Error no_own_shapes(const Model& model) {

@@ -73,6 +73,8 @@ struct Lids {
   /// Distance of the eyeball's surface from the pivot, at equal steps of sqrt(1 - cosine of the angle to `gaze`) from 0
   /// to 1. All 0: the head has no eyeball that lids could pierce.
   std::array<float, ball_places> ball{};
+  /// A vertex rises from the ball by this share of its way: lids of few vertices are flat between them.
+  float lift = 0.0F;
 };
 
 /// The tongue on the neutral face, in model units.

@@ -174,6 +174,7 @@ std::optional<Lids> lids(const JsonCursor& at) {
   result.opening = above(at.member("opening"), 0.0F);
   result.gaze_share = list<2>(at.member("gaze_share"), 0.0F, 1.0F);
   result.ball = list<Lids::ball_places>(at.member("ball"), 0.0F, max_float);
+  if (const auto lift = at.optional_member("lift")) result.lift = static_cast<float>(lift->number(0.0, 1.0));
   return result;
 }
 

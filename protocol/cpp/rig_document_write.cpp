@@ -104,11 +104,13 @@ ordered_json list_of(const std::array<float, N>& values) {
 
 ordered_json lids_of(const std::optional<Lids>& lids) {
   if (!lids) return nullptr;
-  return {{"gaze", vector_of(lids->gaze)},
-          {"slit", shortest(lids->slit)},
-          {"opening", shortest(lids->opening)},
-          {"gaze_share", list_of(lids->gaze_share)},
-          {"ball", list_of(lids->ball)}};
+  ordered_json json = {{"gaze", vector_of(lids->gaze)},
+                       {"slit", shortest(lids->slit)},
+                       {"opening", shortest(lids->opening)},
+                       {"gaze_share", list_of(lids->gaze_share)},
+                       {"ball", list_of(lids->ball)}};
+  if (lids->lift > 0.0F) json["lift"] = shortest(lids->lift);
+  return json;
 }
 
 }  // namespace

@@ -101,6 +101,8 @@ export interface RigLids {
   gaze_share: [number, number];
   /** Distance of the eyeball's surface from the pivot, at 17 equal steps of sqrt(1 - cosine of the angle to `gaze`). */
   ball: number[];
+  /** A vertex rises from the ball by this share of its way up or down: lids of few vertices are flat between them. 0 if left out. */
+  lift?: number;
 }
 
 /** `point` moves by `share` of the displacement of `leader`. */
@@ -336,6 +338,7 @@ function readLids(at: JsonCursor): RigLids {
     opening: above(at.member('opening'), 0),
     gaze_share: list('gaze_share', 2, 0, 1) as [number, number],
     ball: list('ball', ballPlaces, 0, maxFloat),
+    lift: at.optional('lift')?.number(0, 1) ?? 0,
   };
 }
 

@@ -117,7 +117,8 @@ double between(const float* table, int count, double at) {
 
 std::array<double, 2> closure_of(const semblante_lids& lids, double upper_y, double lower_y, double pitch) {
   if (lids.opening <= 0.0F) return {0.0, 0.0};
-  const double widest = std::min(-0.75, 1.0 - 0.75 / lids.slit);
+  const double of_large_eye = std::min(0.0, 0.5 - 1.0 / lids.slit);
+  const double widest = std::min(std::max(-0.75, of_large_eye), 1.0 - 0.75 / lids.slit);
   double upper = limited(-upper_y / lids.opening, widest, 1.0);
   double lower = limited(lower_y / lids.opening, widest, 1.0);
   const double gaze = limited(pitch, -0.8, 0.8) / lids.slit;
@@ -292,13 +293,14 @@ Vec3 with_lid(const semblante_rig& rig, const Pose& pose, int eye, double upper,
     arm[2] = std::abs(sine) < 1.0 ? std::max(0.05 * radius, radius * std::cos(std::asin(sine))) : 0.05 * radius;
   }
   arm[1] += way;
-  const double wanted = 0.03 * lids.ball[16];
-  if (wanted > 0.0) {
+  const double hidden = 0.03 * lids.ball[16];
+  if (hidden > 0.0) {
+    const double wanted = hidden + lids.lift * std::min<double>(lids.opening, std::abs(arm[1] - from[1]));
     const Vec3 rest_pole{lids.gaze[0], lids.gaze[1], lids.gaze[2]};
     double clearance = std::min(wanted, size_of(from) - ball_towards(lids, rest_pole, from));
     const Vec3 pole = pose.eye[eye] * rest_pole;
     const double swing = size_of({pole[0] - rest_pole[0], pole[1] - rest_pole[1], pole[2] - rest_pole[2]});
-    if (clearance > -wanted)
+    if (clearance > -hidden)
       clearance += std::min(1.0, (std::abs(way) / lids.ball[16] + swing) / 0.1) * (wanted - clearance);
     Vec3 from_ball{};
     for (int i = 0; i < 3; ++i) from_ball[i] = arm[i] - pose.eye_translation[eye][i];

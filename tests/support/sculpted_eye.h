@@ -24,9 +24,7 @@ inline double sculpted_edge(double x) { return 0.35 * (1.0 - x * x); }
 /// One sheet of skin over a ball of radius 1.2 about the origin, with an opening two units wide in which the ball is
 /// seen; skin around it stands `step` before the ball.
 struct SculptedEye {
-  explicit SculptedEye(double step) {
-    constexpr int columns = 60;
-    constexpr int rows = 48;
+  explicit SculptedEye(double step, int columns = 60, int rows = 48) {
     for (int r = 0; r <= rows; ++r) {
       for (int c = 0; c <= columns; ++c) {
         const double x = -1.15 + 2.3 * c / columns;
@@ -36,7 +34,7 @@ struct SculptedEye {
         model.positions.emplace_back(x, y, z + (is_eye ? 0.0 : step));
       }
     }
-    const auto at = [](int r, int c) { return static_cast<std::uint32_t>(r * (columns + 1) + c); };
+    const auto at = [columns](int r, int c) { return static_cast<std::uint32_t>(r * (columns + 1) + c); };
     for (int r = 0; r < rows; ++r) {
       for (int c = 0; c < columns; ++c) {
         model.triangles.push_back({at(r, c), at(r, c + 1), at(r + 1, c + 1)});
@@ -76,8 +74,8 @@ struct SculptedEye {
 
 /// The lids of `SculptedEye` around a hole, and a whole ball behind them that shares `is_welded` vertices with the
 /// lower.
-inline SculptedEye ball_behind_lids(bool is_welded) {
-  SculptedEye head(0.08);
+inline SculptedEye ball_behind_lids(bool is_welded, int columns = 60, int rows = 48) {
+  SculptedEye head(0.08, columns, rows);
   Model& model = head.model;
   const auto sheet = static_cast<std::uint32_t>(model.positions.size());
   const auto is_eye = [&](std::uint32_t v) { return glm::length(model.positions[v]) < sculpted_radius + 1e-4; };

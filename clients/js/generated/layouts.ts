@@ -37,7 +37,8 @@ export const lidsLayout = {
   opening: 16,
   gaze_share: 20,
   ball: 28,
-  bytes: 96,
+  lift: 96,
+  bytes: 100,
 } as const;
 
 export const companionLayout = {
@@ -62,7 +63,7 @@ export const rigLayout = {
   companion_count: 164,
   lip_share: 168,
   lids: 172,
-  bytes: 364,
+  bytes: 372,
 } as const;
 
 export const poseLayout = {
@@ -78,7 +79,7 @@ export const poseLayout = {
   tongue: 1176,
   lid_closure: 1220,
   lids: 1236,
-  bytes: 1428,
+  bytes: 1436,
 } as const;
 
 export const faceLayout = {

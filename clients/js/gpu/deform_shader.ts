@@ -50,6 +50,7 @@ uniform vec3 faceLidGaze[2];
 uniform float faceLidClosure[4];
 uniform float faceLidOpening[2];
 uniform float faceLidBall[${2 * ballPlaces}];
+uniform float faceLidLift[2];
 
 vec3 faceRotate(vec4 q, vec3 v) {
   return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v);
@@ -107,19 +108,20 @@ float faceBallRadius(int eye, vec3 pole, vec3 d) {
   return mix(faceLidBall[k], faceLidBall[k + 1], at - float(k - eye * ${ballPlaces}));
 }
 
-${/* Keeps a vertex of lids off the eyeball; way: by which its height changes. See clear_ball in core/kernel/lids.c. */ ''}
+${/* Keeps a vertex of lids off the eyeball; way: by which its height changes. See clear_ball in core/kernel/lane_motions.h. */ ''}
 void faceClearBall(int eye, float way, vec3 rest, inout vec3 p) {
   float radius = faceLidBall[(eye + 1) * ${ballPlaces} - 1];
-  float wanted = 0.03 * radius;
+  float hidden = 0.03 * radius;
+  float wanted = hidden + faceLidLift[eye] * min(abs(p.y - rest.y), faceLidOpening[eye]);
   vec3 r = rest - faceEyePivot[eye];
   vec3 d = p - faceEyePivot[eye] - faceEyeTranslation[eye];
   float distance = length(d);
-  if (wanted <= 0.0 || dot(r, r) <= 0.0 || distance <= 0.0) return;
+  if (hidden <= 0.0 || dot(r, r) <= 0.0 || distance <= 0.0) return;
   float clearance = length(r) - faceBallRadius(eye, faceLidGaze[eye], r);
   vec3 pole = faceRotate(faceEyeRotation[eye], faceLidGaze[eye]);
   float gained = (abs(way) / radius + length(pole - faceLidGaze[eye])) / 0.1;
   if (clearance >= wanted) clearance = wanted;
-  else if (clearance > -wanted) clearance = mix(clearance, wanted, min(gained, 1.0));
+  else if (clearance > -hidden) clearance = mix(clearance, wanted, min(gained, 1.0));
   float least = faceBallRadius(eye, pole, d) + clearance;
   if (distance >= least) return;
   float square = least * least - dot(d.xy, d.xy);

@@ -37,6 +37,7 @@ export interface DeformUniforms {
   /** left upper, left lower, right upper, right lower */
   faceLidClosure: IUniform<Float32Array>;
   faceLidBall: IUniform<Float32Array>;
+  faceLidLift: IUniform<Float32Array>;
 }
 
 export function makeDeformUniforms(table: TangentTable): DeformUniforms {
@@ -65,6 +66,7 @@ export function makeDeformUniforms(table: TangentTable): DeformUniforms {
     faceLidOpening: { value: new Float32Array(2) },
     faceLidClosure: { value: new Float32Array(4) },
     faceLidBall: { value: new Float32Array(2 * ballPlaces) },
+    faceLidLift: { value: new Float32Array(2) },
   };
 }
 
@@ -79,6 +81,7 @@ export function setPose(uniforms: DeformUniforms, pose: Pose): void {
     const lids = eye * lidFields.count;
     uniforms.faceLidGaze.value[eye]!.fromArray(pose.lids, lids + lidFields.gaze);
     uniforms.faceLidOpening.value[eye] = pose.lids[lids + lidFields.opening]!;
+    uniforms.faceLidLift.value[eye] = pose.lids[lids + lidFields.lift]!;
     for (let k = 0; k < ballPlaces; k += 1) {
       uniforms.faceLidBall.value[eye * ballPlaces + k] = pose.lids[lids + lidFields.ball + k]!;
     }

@@ -375,7 +375,9 @@ export class FaceRenderer implements GraphicsUser {
     gl.uniform3fv(set('faceIrisAxis'), two(0, 6, irises));
     gl.uniform3fv(set('faceIrisShape'), two(3, 9, irises));
     gl.uniform3fv(set('faceLidGaze'), two(lidFields.gaze, lidFields.count + lidFields.gaze, given));
-    gl.uniform1fv(set('faceLidOpening'), [given[lidFields.opening]!, given[lidFields.count + lidFields.opening]!]);
+    const ofBoth = (field: number): number[] => [given[field]!, given[lidFields.count + field]!];
+    gl.uniform1fv(set('faceLidOpening'), ofBoth(lidFields.opening));
+    gl.uniform1fv(set('faceLidLift'), ofBoth(lidFields.lift));
     for (let side = 0; side < 2; side += 1) {
       const from = side * lidFields.count + lidFields.ball;
       lids.set(given.subarray(from, from + ballPlaces), side * ballPlaces);

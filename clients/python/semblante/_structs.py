@@ -54,7 +54,7 @@ class Tongue(ctypes.Structure):
 
 
 class Lids(ctypes.Structure):
-    """The lids of one eye on the neutral face. They slide round the eye's axis: the line through its pivot along x. 96
+    """The lids of one eye on the neutral face. They slide round the eye's axis: the line through its pivot along x. 100
     bytes."""
 
     _fields_ = [
@@ -63,6 +63,7 @@ class Lids(ctypes.Structure):
         ("opening", c_float),
         ("gaze_share", c_float * 2),
         ("ball", c_float * 17),
+        ("lift", c_float),
     ]
 
 

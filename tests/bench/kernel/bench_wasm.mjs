@@ -5,7 +5,7 @@ import { execFileSync } from "node:child_process";
 import fs from "node:fs";
 import path from "node:path";
 
-const poseBytes = 1428; // sizeof(semblante_pose)
+const poseBytes = 1436; // sizeof(semblante_pose)
 const rounds = 12;
 
 function readHead(file) {
@@ -104,10 +104,10 @@ function inModule(module, head) {
   const pose = put(head.pose);
   const positions = exports.semblante_alloc(head.vertices * 12);
   // Of the rig, only the eyes count here; they are in the pose too (offsets: core/kernel/README.md).
-  const rig = new Uint8Array(364);
+  const rig = new Uint8Array(372);
   const inPose = new Uint8Array(head.pose.buffer, head.pose.byteOffset, head.pose.byteLength);
   rig.set(inPose.subarray(1080, 1104), 28);
-  rig.set(inPose.subarray(1236, 1428), 172);
+  rig.set(inPose.subarray(1236, 1436), 172);
   const memory = exports.semblante_alloc(exports.semblante_prepared_size(face));
   const prepared = exports.semblante_prepare_for(face, put(rig), memory);
   return {

@@ -178,7 +178,7 @@ GoldenFace::GoldenFace() {
     std::copy(std::begin(pivot), std::end(pivot), rig.eye_pivot[eye]);
     rig.iris[eye] = {{0.0F, 0.0F, 1.0F}, 0.03125F, 0.09375F, -2.5F};
     semblante_lids& lids = rig.lids[eye];
-    lids = {{0.0F, 0.0F, 1.0F}, 0.625F, 0.125F, {0.75F, 0.25F}, {}};
+    lids = {{0.0F, 0.0F, 1.0F}, 0.625F, 0.125F, {0.75F, 0.25F}, {}, 0.0F};
     // A cornea.
     for (int k = 0; k < SEMBLANTE_BALL_PLACES; ++k) lids.ball[k] = k < 2 ? 0.20703125F : 0.19921875F;
   }

@@ -12,9 +12,11 @@
 #include "core/anatomy/lid_edge.h"
 #include "core/anatomy/point_lookup.h"
 #include "core/expressions/contact.h"
+#include "core/expressions/kernel_rig.h"
 #include "tests/support/fold_over.h"
 #include "tests/support/posed_face.h"
 #include "tests/support/sample_head_model.h"
+#include "tests/support/sculpted_eye.h"
 
 namespace semblante {
 namespace {
@@ -202,6 +204,67 @@ TEST(Blink, IsHalfDoneHalfWay) {
     EXPECT_GT(half.slit, 0.4) << head.name;
     EXPECT_LT(half.slit, 0.6) << head.name;
     EXPECT_EQ(half.crossing, 0.0) << head.name;
+  }
+}
+
+/// One eye behind lids that are a grid of so many quads.
+struct EyeBehindGrid {
+  EyeBehindGrid(int columns, int rows) : eye(testing::ball_behind_lids(false, columns, rows)) {
+    FeaturePointSet points;
+    for (const SurfacePoint& p : eye.points)
+      points.push_back({p.id, eye.surface.file_vertex_of[p.vertex.value()], glm::vec3(p.position)});
+    std::vector<std::optional<PartRole>> roles(eye.surface.part_count());
+    roles[eye.surface.part_of[eye.points.front().vertex.value()].value()] = PartRole::skin;
+    roles[eye.surface.part_of[eye.surface.surface_of.back().value()].value()] = PartRole::left_eye;
+    ParametrizeOptions options;
+    options.weights = WeightMethod::smooth;
+    options.roles_by_user = roles;
+    rig = parametrize(eye.model, eye.surface, points, options).value();
+  }
+
+  /// The triangles of the lids whose middles are in the ball when the eye is shut.
+  [[nodiscard]] std::size_t in_ball(const Rig& of) const {
+    const KernelRig kernel_rig = make_kernel_rig(of);
+    const semblante_rig view = kernel_rig.view();
+    const semblante_frame shut = bench::frame_of({{19, 1024.0F}});
+    semblante_pose pose;
+    semblante_evaluate(&view, &shut, &pose);
+    const semblante_face face = make_kernel_face(of, &eye.model.positions[0].x);
+    std::vector<glm::vec3> moved(eye.model.positions.size());
+    semblante_deform(&face, &pose, &moved[0].x);
+    return static_cast<std::size_t>(
+        std::count_if(eye.model.triangles.begin(), eye.model.triangles.end(), [&](const Triangle& t) {
+          const glm::vec3 middle = (moved[t[0]] + moved[t[1]] + moved[t[2]]) / 3.0F;
+          return of.parts[of.part_of_vertex[t[0]].value()].role == PartRole::skin && middle.z > 0.0F &&
+                 glm::length(middle) < 0.995 * testing::sculpted_radius;
+        }));
+  }
+
+  testing::SculptedEye eye;
+  Rig rig;
+};
+
+TEST(CoarseLids, RiseFromTheBallThatTheirTrianglesWouldCut) {
+  const EyeBehindGrid coarse(8, 6);
+  ASSERT_TRUE(coarse.rig.lids[0].has_value());
+  EXPECT_GT(coarse.rig.lids[0]->lift, 0.0F);
+  Rig flat = coarse.rig;
+  flat.lids[0]->lift = 0.0F;
+  EXPECT_GT(coarse.in_ball(flat), 12U);
+  EXPECT_LT(coarse.in_ball(coarse.rig), 8U);  // beside the corners, where lids hardly move
+}
+
+TEST(CoarseLids, OfAFineGridHaveNoNeedToRise) {
+  const EyeBehindGrid fine(60, 48);
+  ASSERT_TRUE(fine.rig.lids[0].has_value());
+  EXPECT_EQ(fine.rig.lids[0]->lift, 0.0F);
+  EXPECT_EQ(fine.in_ball(fine.rig), 0U);
+}
+
+TEST(CoarseLids, AreNotThoseOfHeadsWithManyVertices) {
+  for (const bench::Head& head : bench::heads_with_lids()) {
+    const PosedFace face(head, WeightMethod::smooth);
+    for (const auto& lids : face.rig().lids) EXPECT_EQ(lids->lift, 0.0F) << head.name;
   }
 }
 

@@ -72,7 +72,7 @@ class RandomFace {
       p.iris[eye] = {{0.0F, 0.0F, 1.0F}, 0.2F, 0.6F, -0.4F};
     }
     for (semblante_lids& of_eye : p.lids) {
-      of_eye = {{0.0F, 0.0F, 1.0F}, 0.7F, 0.2F, {0.75F, 0.25F}, {}};
+      of_eye = {{0.0F, 0.0F, 1.0F}, 0.7F, 0.2F, {0.75F, 0.25F}, {}, 0.25F};
       for (float& radius : of_eye.ball) radius = 0.4F;
     }
     p.head_pivot[1] = -0.5F;

@@ -59,7 +59,7 @@ TEST(Kernel_Eyes, AreThrustForwardAsAWhole_ThenTurnWithTheHead) {
 
 /// Lids of the left eye: the pivot at the origin, the slit half a radian and 4 high.
 TestRig& with_lids(TestRig& rig) {
-  rig.rig.lids[0] = {{0, 0, 1}, 0.5F, 4.0F, {0.5F, 0.25F}, {}};
+  rig.rig.lids[0] = {{0, 0, 1}, 0.5F, 4.0F, {0.5F, 0.25F}, {}, 0.0F};
   return rig;
 }
 
@@ -113,6 +113,21 @@ TEST(Kernel_Lids, OfAnEyeThatIsClosedAtRest_CloseNoFarther_AndOpen) {
   expect_near(on_lid(rig, frame, on_circle(0.0F, -1.0), upper_lid), on_circle(0.0F, -1.0 + 0.01 * 749.0), 1e-3F);
 }
 
+// The eyes of cartoons: a lid that opened by half of such a slit would leave the eyeball and show what is behind it.
+TEST(Kernel_Lids, OfAWideEye_OpenToOneRadianFromItsMiddle) {
+  TestRig rig;
+  with_lids(rig);
+  semblante_frame frame{};
+  frame.fap[19] = -1000.0F;
+  const auto opened = [&](float slit) {
+    rig.rig.lids[0].slit = slit;
+    return on_lid(rig, frame, on_circle(0.0F, 3.0), upper_lid)[1] - 3.0F;
+  };
+  EXPECT_NEAR(opened(0.8F), 0.75F * 4.0F, 1e-5F);
+  EXPECT_NEAR(opened(1.6F), (1.0F / 1.6F - 0.5F) * 4.0F, 1e-5F);
+  EXPECT_NEAR(opened(2.4F), 0.0F, 1e-5F);
+}
+
 TEST(Kernel_Lids, FollowTheGaze_AsFarAsTheyAreOpen) {
   TestRig rig;
   with_lids(rig);
@@ -122,6 +137,23 @@ TEST(Kernel_Lids, FollowTheGaze_AsFarAsTheyAreOpen) {
   expect_near(on_lid(rig, frame, on_circle(0.0F, -1.0), lower_lid), on_circle(0.0F, -1.4), 1e-5F);
   frame.fap[19] = 8.0F;  // shut stays shut, wherever the eye looks
   expect_near(on_lid(rig, frame, on_circle(0.0F, 3.0), upper_lid), on_circle(0.0F, -1.0), 1e-5F);
+}
+
+// Lids of few vertices are flat between them, so these go round the ball in a greater arc.
+TEST(Kernel_Lids, RiseFromTheBallWithTheirWay_ByTheirLift) {
+  TestRig rig;
+  with_lids(rig);
+  for (float& radius : rig.rig.lids[0].ball) radius = 9.9F;
+  rig.rig.lids[0].lift = 0.5F;
+  const auto distance_at = [&](float share) {
+    semblante_frame frame{};
+    frame.fap[19] = 8.0F * share;
+    const auto at = on_lid(rig, frame, on_circle(0.0F, 3.0), upper_lid);
+    return std::hypot(at[0], at[1], at[2]);
+  };
+  EXPECT_NEAR(distance_at(0.0F), 10.0F, 1e-5F);
+  EXPECT_NEAR(distance_at(0.5F), 1.03F * 9.9F + 0.5F * 2.0F, 1e-4F);
+  EXPECT_NEAR(distance_at(1.0F), 1.03F * 9.9F + 0.5F * 4.0F, 1e-4F);
 }
 
 TEST(Kernel_Lids, KeepOffTheBall_AndStayWhereTheyLieWithin) {

@@ -1,7 +1,7 @@
 // The kernel's WebAssembly module with its structs laid out by hand, as any JavaScript client does it.
 // Offsets are those of semblante_kernel.h on a machine with 32-bit pointers.
 const FP = 84;
-const POSE_BYTES = 1428;
+const POSE_BYTES = 1436;
 
 export class WasmKernel {
   constructor(bytes) {
@@ -37,7 +37,7 @@ export class WasmKernel {
     const expression = table(expressions);
     const followers = [...companions, ...lower_lip];
     const followersAt = this.alloc(followers.length * 8);
-    const at = this.alloc(364);
+    const at = this.alloc(372);
     const view = this.view();
     followers.forEach(([point, leader, share], i) => {
       [point, leader, i < companions.length ? 0 : 1, 0].forEach((b, k) => view.setUint8(followersAt + 8 * i + k, b));
@@ -57,8 +57,8 @@ export class WasmKernel {
     this.setLipShare(at, 0);
     const lidNumbers = lids.flatMap((l) =>
       l
-        ? [...l.gaze, l.slit, l.opening, ...l.gaze_share, ...l.ball]
-        : new Array(24).fill(0),
+        ? [...l.gaze, l.slit, l.opening, ...l.gaze_share, ...l.ball, l.lift ?? 0]
+        : new Array(25).fill(0),
     );
     lidNumbers.forEach((x, i) => view.setFloat32(at + 172 + 4 * i, x, true));
     return at;

@@ -185,6 +185,7 @@ RigDocument with_lids_and_companions() {
   lids.opening = 0.5F;
   lids.slit = 0.75F;
   lids.ball.fill(2.0F);
+  lids.lift = 0.25F;
   rig.lids[1] = lids;
   const auto id = [](const char* name) { return *parse_feature_point(name); };
   rig.companions = {{id("2.10"), id("2.1"), 0.95F, false},
@@ -203,6 +204,7 @@ TEST(RigDocument, LidsAndCompanions_AreThereOnlyWhereTheHeadHasThem) {
   EXPECT_EQ(write_rig(*rig), text);
   EXPECT_FALSE(rig->lids[0].has_value());
   EXPECT_EQ(rig->lids[1]->slit, 0.75F);
+  EXPECT_EQ(rig->lids[1]->lift, 0.25F);
   ASSERT_EQ(rig->companions.size(), 4U);
   EXPECT_EQ(rig->companions[2].leader, *parse_feature_point("8.3"));
   EXPECT_TRUE(rig->companions[3].is_choice);
@@ -214,6 +216,7 @@ TEST(RigDocument, Read_InvalidLidsAndCompanions_AreNamedByTheirPointer) {
   rig.refused("/lids/1/gaze", ErrorCode::out_of_range, [](json& j) { j["lids"][1]["gaze"] = {0, 0, 0.8}; });
   rig.refused("/lids/1/opening", ErrorCode::out_of_range, [](json& j) { j["lids"][1]["opening"] = 0; });
   rig.refused("/lids/1/slit", ErrorCode::out_of_range, [](json& j) { j["lids"][1]["slit"] = -0.1; });
+  rig.refused("/lids/1/lift", ErrorCode::out_of_range, [](json& j) { j["lids"][1]["lift"] = 1.5; });
   rig.refused("/lids/1/ball", ErrorCode::out_of_range, [](json& j) { j["lids"][1]["ball"].erase(0); });
   rig.refused("/lids/1/ball/16", ErrorCode::malformed, [](json& j) { j["lids"][1]["ball"][16] = "round"; });
   rig.refused("/companions/2.10/2.1", ErrorCode::out_of_range, [](json& j) { j["companions"]["2.10"]["2.1"] = 11; });

@@ -1749,6 +1749,8 @@ export interface components {
                         number,
                         number
                     ];
+                    /** @description 0 if left out */
+                    lift?: number;
                 } | null,
                 {
                     gaze: components["schemas"]["Vector"];
@@ -1777,6 +1779,8 @@ export interface components {
                         number,
                         number
                     ];
+                    /** @description 0 if left out */
+                    lift?: number;
                 } | null
             ];
             /** @description Feature points that follow others: the share of each leader, by id */

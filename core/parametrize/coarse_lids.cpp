@@ -1,0 +1,190 @@
+#include "core/parametrize/coarse_lids.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include "core/anatomy/lids.h"
+#include "core/expressions/kernel_rig.h"
+#include "core/geometry/triangle_shape.h"
+#include "core/kernel/semblante_kernel.h"
+#include "core/tables/mpeg4.h"
+
+namespace semblante {
+namespace {
+
+// FAPs of the left eye; those of the right one are the next.
+constexpr std::size_t close_upper_lid = 19;
+constexpr std::size_t close_lower_lid = 21;
+constexpr std::size_t pitch_of_eye = 25;
+
+/// Closures of upper and lower lid in which the lids are looked at, each with the gazes below.
+constexpr std::array<std::array<double, 2>, 5> closures = {
+    {{1.0, 0.0}, {0.5, 0.0}, {0.5, 0.5}, {0.25, 0.25}, {0.0, 1.0}}};
+/// Pitches of the gaze, radians.
+constexpr std::array gazes = {-0.35, 0.0, 0.35};
+/// Places along each edge of a triangle.
+constexpr int places_along = 6;
+/// A place is in the ball if it is deeper than this; of the ball's radius, as all lengths below.
+constexpr double depth_in_ball = 0.005;
+/// Of the places that are looked at, the share in the ball from which on lids are coarse. It is 0 on heads of five
+/// thousand vertices and more, 0.0007 to 0.009 on the same heads of 3000 to 600 and on others of few vertices.
+constexpr double least_cut = 0.0002;
+/// Lifts that are tried.
+constexpr int steps = 10;
+constexpr double step = 0.06;
+/// A lift of one costs as much as this share of what is cut: lids that stand far out are no better.
+constexpr double price = 0.5;
+
+/// The lids of one eye as a mesh of their own, that takes poses.
+class LidMesh {
+ public:
+  LidMesh(const Model& model, const Rig& rig, std::size_t eye)
+      : lids_(*rig.lids[eye]),
+        eye_(eye),
+        pivot_(eye == 0 ? rig.left_eye_pivot : rig.right_eye_pivot),
+        kernel_rig_(make_kernel_rig(rig)),
+        irisd_(rig.fapu[FapuUnit::irisd].value_or(0.0)) {
+    const RigidMotion own = eye == 0 ? RigidMotion::left_lids : RigidMotion::right_lids;
+    constexpr std::uint32_t unknown = ~0U;
+    std::vector<std::uint32_t> number(model.positions.size(), unknown);
+    for (const Triangle& t : model.triangles) {
+      if (std::none_of(t.begin(), t.end(), [&](std::uint32_t v) { return rig.rigid_of_vertex[v] == own; })) continue;
+      if (rig.parts[rig.part_of_vertex[t[0]].value()].role != PartRole::skin) continue;
+      Triangle& triangle = triangles_.emplace_back();
+      for (std::size_t k = 0; k < 3; ++k) {
+        std::uint32_t& n = number[t[k]];
+        if (n == unknown) n = add(model, rig, t[k]);
+        triangle[k] = n;
+      }
+    }
+    find_places_before_ball();
+  }
+
+  /// The share of the places before the ball on the neutral face that are in it in other poses.
+  [[nodiscard]] double cut(double lift) const {
+    if (places_.empty() || !(irisd_ > 0.0)) return 0.0;
+    semblante_rig rig = kernel_rig_.view();
+    rig.lids[eye_].lift = static_cast<float>(lift);
+    std::size_t in_ball = 0;
+    for (const auto& closure : closures) {
+      for (const double gaze : gazes) in_ball += count_in_ball(rig, closure, gaze);
+    }
+    return static_cast<double>(in_ball) / static_cast<double>(places_.size() * closures.size() * gazes.size());
+  }
+
+ private:
+  struct Place {
+    Triangle triangle;
+    double a, b, c;
+
+    [[nodiscard]] glm::dvec3 in(const std::vector<glm::vec3>& at) const {
+      return a * glm::dvec3(at[triangle[0]]) + b * glm::dvec3(at[triangle[1]]) + c * glm::dvec3(at[triangle[2]]);
+    }
+  };
+
+  std::uint32_t add(const Model& model, const Rig& rig, std::uint32_t file_vertex) {
+    const auto points = rig.influence.points_of(file_vertex);
+    const auto weights = rig.influence.weights_of(file_vertex);
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      points_.push_back(points[k].value());
+      weights_.push_back(weights[k]);
+    }
+    offsets_.push_back(static_cast<std::uint32_t>(points_.size()));
+    rigid_.push_back(static_cast<std::uint8_t>(rig.rigid_of_vertex[file_vertex]));
+    rest_.push_back(model.positions[file_vertex]);
+    return static_cast<std::uint32_t>(rest_.size() - 1);
+  }
+
+  /// Those on the outside of lids: the inside is hidden behind it, and may lie in the ball.
+  void find_places_before_ball() {
+    constexpr double of_edge = 1.0 / places_along;
+    for (const Triangle& triangle : triangles_) {
+      const glm::dvec3 first(rest_[triangle[0]]);
+      const glm::dvec3 outwards = area_vector(first, glm::dvec3(rest_[triangle[1]]), glm::dvec3(rest_[triangle[2]]));
+      if (!(glm::dot(outwards, first - pivot_) > 0.0)) continue;
+      for (int i = 0; i <= places_along; ++i) {
+        for (int j = 0; i + j <= places_along; ++j) {
+          const Place place{triangle, i * of_edge, j * of_edge, (places_along - i - j) * of_edge};
+          const glm::dvec3 from = place.in(rest_)-pivot_;
+          if (from.z > 0.0 && depth(from, glm::dvec3(lids_.gaze)) < 0.0) places_.push_back(place);
+        }
+      }
+    }
+  }
+
+  /// Negative outside.
+  [[nodiscard]] double depth(const glm::dvec3& from_pivot, const glm::dvec3& pole) const {
+    return radius_towards(lids_, pole, from_pivot) - glm::length(from_pivot);
+  }
+
+  [[nodiscard]] std::size_t count_in_ball(const semblante_rig& rig, const std::array<double, 2>& closure,
+                                          double gaze) const {
+    semblante_frame frame{};
+    const double whole = lids_.opening / irisd_;
+    frame.fap[close_upper_lid + eye_] = static_cast<float>(closure[0] * whole);
+    frame.fap[close_lower_lid + eye_] = static_cast<float>(closure[1] * whole);
+    frame.fap[pitch_of_eye + eye_] = static_cast<float>(gaze / mpeg4::radians_per_au);
+    semblante_pose pose;
+    semblante_evaluate(&rig, &frame, &pose);
+    semblante_face face{};
+    face.vertex_count = static_cast<std::uint32_t>(rest_.size());
+    face.rest = &rest_[0].x;
+    face.row_offsets = offsets_.data();
+    face.row_points = points_.data();
+    face.row_weights = weights_.data();
+    face.rigid = rigid_.data();
+    std::vector<glm::vec3> posed(rest_.size());
+    semblante_deform(&face, &pose, &posed[0].x);
+    const double sine = std::sin(gaze);
+    const double cosine = std::cos(gaze);
+    const glm::dvec3 g(lids_.gaze);
+    const glm::dvec3 pole(g.x, cosine * g.y - sine * g.z, sine * g.y + cosine * g.z);
+    const double deep = depth_in_ball * lids_.ball.back();
+    return static_cast<std::size_t>(std::count_if(places_.begin(), places_.end(), [&](const Place& place) {
+      return depth(place.in(posed)-pivot_, pole) > deep;
+    }));
+  }
+
+  const Lids& lids_;
+  std::size_t eye_;
+  glm::dvec3 pivot_;
+  KernelRig kernel_rig_;
+  double irisd_;
+  std::vector<Triangle> triangles_;
+  std::vector<Place> places_;
+  std::vector<glm::vec3> rest_;
+  std::vector<std::uint32_t> offsets_ = {0};
+  std::vector<std::uint8_t> points_, rigid_;
+  std::vector<float> weights_;
+};
+
+double best_lift(const LidMesh& mesh) {
+  const double unlifted = mesh.cut(0.0);
+  if (unlifted <= least_cut) return 0.0;
+  double best = 0.0;
+  double least_cost = 1.0;
+  for (int k = 1; k <= steps; ++k) {
+    const double cost = mesh.cut(k * step) / unlifted + price * k * step;
+    if (cost >= least_cost) continue;
+    least_cost = cost;
+    best = k * step;
+  }
+  return best;
+}
+
+}  // namespace
+
+void lift_coarse_lids(const Model& model, Rig& rig) {
+  for (std::size_t eye = 0; eye < rig.lids.size(); ++eye) {
+    if (!rig.lids[eye] || !(rig.lids[eye]->ball.back() > 0.0F)) continue;
+    rig.lids[eye]->lift = static_cast<float>(best_lift(LidMesh(model, rig, eye)));
+  }
+}
+
+}  // namespace semblante
