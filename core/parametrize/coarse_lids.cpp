@@ -35,6 +35,9 @@ constexpr double depth_in_ball = 0.005;
 /// Of the places that are looked at, the share in the ball from which on lids are coarse. It is 0 on heads of five
 /// thousand vertices and more, 0.0007 to 0.009 on the same heads of 3000 to 600 and on others of few vertices.
 constexpr double least_cut = 0.0002;
+/// A triangle with shorter edges, which a closing lid may double, does not reach from its vertices into the ball: they
+/// keep clear of it by more (lids.c).
+constexpr double long_edge = 0.2;
 /// Lifts that are tried.
 constexpr int steps = 10;
 constexpr double step = 0.06;
@@ -49,7 +52,8 @@ class LidMesh {
         eye_(eye),
         pivot_(eye == 0 ? rig.left_eye_pivot : rig.right_eye_pivot),
         kernel_rig_(make_kernel_rig(rig)),
-        irisd_(rig.fapu[FapuUnit::irisd].value_or(0.0)) {
+        irisd_(rig.fapu[FapuUnit::irisd].value_or(0.0)),
+        largest_radius_(*std::max_element(lids_.ball.begin(), lids_.ball.end())) {
     const RigidMotion own = eye == 0 ? RigidMotion::left_lids : RigidMotion::right_lids;
     constexpr std::uint32_t unknown = ~0U;
     std::vector<std::uint32_t> number(model.positions.size(), unknown);
@@ -75,7 +79,7 @@ class LidMesh {
     for (const auto& closure : closures) {
       for (const double gaze : gazes) in_ball += count_in_ball(rig, closure, gaze);
     }
-    return static_cast<double>(in_ball) / static_cast<double>(places_.size() * closures.size() * gazes.size());
+    return static_cast<double>(in_ball) / static_cast<double>(places_before_ball_ * closures.size() * gazes.size());
   }
 
  private:
@@ -108,19 +112,29 @@ class LidMesh {
       const glm::dvec3 first(rest_[triangle[0]]);
       const glm::dvec3 outwards = area_vector(first, glm::dvec3(rest_[triangle[1]]), glm::dvec3(rest_[triangle[2]]));
       if (!(glm::dot(outwards, first - pivot_) > 0.0)) continue;
+      const bool may_cut = has_long_edge(triangle);
       for (int i = 0; i <= places_along; ++i) {
         for (int j = 0; i + j <= places_along; ++j) {
           const Place place{triangle, i * of_edge, j * of_edge, (places_along - i - j) * of_edge};
           const glm::dvec3 from = place.in(rest_)-pivot_;
-          if (from.z > 0.0 && depth(from, glm::dvec3(lids_.gaze)) < 0.0) places_.push_back(place);
+          if (!(from.z > 0.0) || is_in_ball(from, glm::dvec3(lids_.gaze), 0.0)) continue;
+          ++places_before_ball_;
+          if (may_cut) places_.push_back(place);
         }
       }
     }
   }
 
-  /// Negative outside.
-  [[nodiscard]] double depth(const glm::dvec3& from_pivot, const glm::dvec3& pole) const {
-    return radius_towards(lids_, pole, from_pivot) - glm::length(from_pivot);
+  [[nodiscard]] bool has_long_edge(const Triangle& triangle) const {
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (glm::distance(rest_[triangle[k]], rest_[triangle[(k + 1) % 3]]) > long_edge * lids_.ball.back()) return true;
+    }
+    return false;
+  }
+
+  [[nodiscard]] bool is_in_ball(const glm::dvec3& from_pivot, const glm::dvec3& pole, double deep) const {
+    const double distance = glm::length(from_pivot) + deep;
+    return distance < largest_radius_ && distance < radius_towards(lids_, pole, from_pivot);
   }
 
   [[nodiscard]] std::size_t count_in_ball(const semblante_rig& rig, const std::array<double, 2>& closure,
@@ -147,7 +161,7 @@ class LidMesh {
     const glm::dvec3 pole(g.x, cosine * g.y - sine * g.z, sine * g.y + cosine * g.z);
     const double deep = depth_in_ball * lids_.ball.back();
     return static_cast<std::size_t>(std::count_if(places_.begin(), places_.end(), [&](const Place& place) {
-      return depth(place.in(posed)-pivot_, pole) > deep;
+      return is_in_ball(place.in(posed)-pivot_, pole, deep);
     }));
   }
 
@@ -156,8 +170,10 @@ class LidMesh {
   glm::dvec3 pivot_;
   KernelRig kernel_rig_;
   double irisd_;
+  double largest_radius_;
   std::vector<Triangle> triangles_;
-  std::vector<Place> places_;
+  std::size_t places_before_ball_ = 0;
+  std::vector<Place> places_;  ///< those of them on triangles that may cut it
   std::vector<glm::vec3> rest_;
   std::vector<std::uint32_t> offsets_ = {0};
   std::vector<std::uint8_t> points_, rigid_;
