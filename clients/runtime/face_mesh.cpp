@@ -53,7 +53,7 @@ Result<FaceMesh> decode_mesh(std::span<const std::uint8_t> bytes, const RigDocum
     decoded.materials = value_or_empty(draco->bytes(*mesh.attributes.material));
   }
   if (mesh.attributes.color) {
-    decoded.colors = value_or_empty(draco->colors(*mesh.attributes.color));
+    decoded.colors = value_or_empty(draco->bytes(*mesh.attributes.color, 3));
   }
   decoded.triangles = draco->triangles();
   return decoded;

@@ -18,7 +18,7 @@ struct FaceMesh {
   std::vector<glm::vec3> positions;     ///< #V
   std::vector<glm::vec3> normals;       ///< #V or empty
   std::vector<glm::vec2> uvs;           ///< #V or empty
-  std::vector<Color8> colors;           ///< #V or empty
+  std::vector<std::uint8_t> colors;     ///< #V by 3, or empty
   std::vector<std::uint8_t> materials;  ///< #V or empty: index into rig.json's materials
   std::vector<Triangle> triangles;      ///< #T, all indices < #V
 };

@@ -186,8 +186,8 @@ Result<std::vector<glm::vec2>> DracoMesh::vectors2(std::uint32_t unique_id) cons
   return vectors<glm::vec2>(unique_id);
 }
 
-Result<std::vector<std::uint8_t>> DracoMesh::bytes(std::uint32_t unique_id) const {
-  const auto found = attribute(unique_id, 1);
+Result<std::vector<std::uint8_t>> DracoMesh::bytes(std::uint32_t unique_id, std::size_t components) const {
+  const auto found = attribute(unique_id, components);
   if (!found) return found.error();
   return values<std::uint8_t>(**found);
 }

@@ -44,9 +44,11 @@ class DracoMesh {
   /// #points rows of `components` floats; whole numbers are divided by their greatest if `normalized`.
   [[nodiscard]] Result<std::vector<float>> floats(std::uint32_t unique_id, std::size_t components,
                                                   bool normalized = false) const;
-  [[nodiscard]] Result<std::vector<glm::vec3>> vectors3(std::uint32_t unique_id) const;     ///< #points
-  [[nodiscard]] Result<std::vector<glm::vec2>> vectors2(std::uint32_t unique_id) const;     ///< #points
-  [[nodiscard]] Result<std::vector<std::uint8_t>> bytes(std::uint32_t unique_id) const;     ///< #points
+  [[nodiscard]] Result<std::vector<glm::vec3>> vectors3(std::uint32_t unique_id) const;  ///< #points
+  [[nodiscard]] Result<std::vector<glm::vec2>> vectors2(std::uint32_t unique_id) const;  ///< #points
+  [[nodiscard]] Result<std::vector<std::uint8_t>> bytes(std::uint32_t unique_id) const { return bytes(unique_id, 1); }
+  [[nodiscard]] Result<std::vector<std::uint8_t>> bytes(std::uint32_t unique_id,
+                                                        std::size_t components) const;      ///< #points by components
   [[nodiscard]] Result<std::vector<Color8>> colors(std::uint32_t unique_id) const;          ///< #points
   [[nodiscard]] Result<std::vector<std::uint32_t>> numbers(std::uint32_t unique_id) const;  ///< #points
 

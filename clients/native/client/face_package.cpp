@@ -59,7 +59,9 @@ Result<Model> to_model(runtime::FaceMesh&& mesh, const RigDocument& rig) {
   if (!model.uvs.empty()) {
     model.uv_triangles = model.triangles;
   }
-  model.colors = std::move(mesh.colors);
+  for (std::size_t i = 0; i + 2 < mesh.colors.size(); i += 3) {
+    model.colors.push_back({mesh.colors[i], mesh.colors[i + 1], mesh.colors[i + 2]});
+  }
   if (!model.colors.empty()) mark_colored(model);
   model.normals = std::move(mesh.normals);
   if (!model.normals.empty()) {
