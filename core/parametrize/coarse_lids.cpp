@@ -23,7 +23,7 @@ constexpr std::size_t close_upper_lid = 19;
 constexpr std::size_t close_lower_lid = 21;
 constexpr std::size_t pitch_of_eye = 25;
 
-/// Closures of upper and lower lid in which the lids are looked at, each with the gazes below.
+/// The closures of upper and lower lid that are tried, each with all gazes below.
 constexpr std::array<std::array<double, 2>, 5> closures = {
     {{1.0, 0.0}, {0.5, 0.0}, {0.5, 0.5}, {0.25, 0.25}, {0.0, 1.0}}};
 /// Pitches of the gaze, radians.
@@ -32,13 +32,13 @@ constexpr std::array gazes = {-0.35, 0.0, 0.35};
 constexpr int places_along = 6;
 /// A place is in the ball if it is deeper than this; of the ball's radius, as all lengths below.
 constexpr double depth_in_ball = 0.005;
-/// Of the places that are looked at, the share in the ball from which on lids are coarse. It is 0 on heads of five
+/// Of all places in all poses, the share in the ball from which on lids are coarse. It is 0 on heads of five
 /// thousand vertices and more, 0.0007 to 0.009 on the same heads of 3000 to 600 and on others of few vertices.
 constexpr double least_cut = 0.0002;
 /// A triangle with shorter edges, which a closing lid may double, does not reach from its vertices into the ball: they
 /// keep clear of it by more (lids.c).
 constexpr double long_edge = 0.2;
-/// Lifts that are tried.
+/// The lifts that are tried: multiples of `step`.
 constexpr int steps = 10;
 constexpr double step = 0.06;
 /// A lift of one costs as much as this share of what is cut: lids that stand far out are no better.
@@ -95,12 +95,9 @@ class LidMesh {
   std::uint32_t add(const Model& model, const Rig& rig, std::uint32_t file_vertex) {
     const auto points = rig.influence.points_of(file_vertex);
     const auto weights = rig.influence.weights_of(file_vertex);
-    for (std::size_t k = 0; k < points.size(); ++k) {
-      points_.push_back(points[k].value());
-      weights_.push_back(weights[k]);
-    }
-    offsets_.push_back(static_cast<std::uint32_t>(points_.size()));
-    rigid_.push_back(static_cast<std::uint8_t>(rig.rigid_of_vertex[file_vertex]));
+    for (std::size_t k = 0; k < points.size(); ++k) moved_.influence.push(points[k], weights[k]);
+    moved_.influence.end_row();
+    moved_.rigid_of_vertex.push_back(rig.rigid_of_vertex[file_vertex]);
     rest_.push_back(model.positions[file_vertex]);
     return static_cast<std::uint32_t>(rest_.size() - 1);
   }
@@ -146,13 +143,7 @@ class LidMesh {
     frame.fap[pitch_of_eye + eye_] = static_cast<float>(gaze / mpeg4::radians_per_au);
     semblante_pose pose;
     semblante_evaluate(&rig, &frame, &pose);
-    semblante_face face{};
-    face.vertex_count = static_cast<std::uint32_t>(rest_.size());
-    face.rest = &rest_[0].x;
-    face.row_offsets = offsets_.data();
-    face.row_points = points_.data();
-    face.row_weights = weights_.data();
-    face.rigid = rigid_.data();
+    const semblante_face face = make_kernel_face(moved_, &rest_[0].x);
     std::vector<glm::vec3> posed(rest_.size());
     semblante_deform(&face, &pose, &posed[0].x);
     const double sine = std::sin(gaze);
@@ -173,11 +164,9 @@ class LidMesh {
   double largest_radius_;
   std::vector<Triangle> triangles_;
   std::size_t places_before_ball_ = 0;
-  std::vector<Place> places_;  ///< those of them on triangles that may cut it
+  std::vector<Place> places_;  ///< places before the ball on triangles that are large enough to cut it
   std::vector<glm::vec3> rest_;
-  std::vector<std::uint32_t> offsets_ = {0};
-  std::vector<std::uint8_t> points_, rigid_;
-  std::vector<float> weights_;
+  Rig moved_;  ///< what moves the vertices: influence and rigid_of_vertex alone
 };
 
 double best_lift(const LidMesh& mesh) {

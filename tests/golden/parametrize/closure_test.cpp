@@ -207,7 +207,7 @@ TEST(Blink, IsHalfDoneHalfWay) {
   }
 }
 
-/// One eye behind lids that are a grid of so many quads.
+/// An eye behind lids that are a grid of `columns` by `rows` quads.
 struct EyeBehindGrid {
   EyeBehindGrid(int columns, int rows) : eye(testing::ball_behind_lids(false, columns, rows)) {
     FeaturePointSet points;
