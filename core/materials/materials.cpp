@@ -62,9 +62,9 @@ MaterialAssignment assign_materials(const Model& model, const Surface& surface, 
     const Material* const own = material_of(model, primitive);
     for (std::size_t t = primitive.first_triangle; t < std::size_t{primitive.first_triangle} + primitive.triangle_count;
          ++t) {
-      const bool has_look = own != nullptr && !says_nothing(*own);
-      const bool is_blended = has_look && own->alpha_mode == Material::AlphaMode::blend;
-      if (has_look && (!is_blended || parts.empty())) {
+      const bool keeps_own = own != nullptr && !says_nothing(*own);
+      const bool is_blended = keeps_own && own->alpha_mode == Material::AlphaMode::blend;
+      if (keeps_own && (!is_blended || parts.empty())) {
         out.of_triangle[t] = number_for(primitive.material, *own);
         continue;
       }
@@ -72,9 +72,9 @@ MaterialAssignment assign_materials(const Model& model, const Surface& surface, 
       const PartRole role = part.value() < parts.size() ? parts[part.value()].role : PartRole::skin;
       const Plain plain =
           plain_of(own != nullptr ? std::string_view(own->name) : std::string_view(), primitive.name, role);
-      if (!has_look && primitive.has_colors)
+      if (!keeps_own && primitive.has_colors)
         out.of_triangle[t] = number_for(-1 - plain_count - static_cast<int>(plain), colored(plain));
-      else if (!has_look)
+      else if (!keeps_own)
         out.of_triangle[t] = number_for(-1 - static_cast<int>(plain), plain_material(plain));
       else if (is_solid(*own, plain))
         out.of_triangle[t] = number_for(primitive.material + static_cast<int>(model.materials.size()), solid(*own));

@@ -20,9 +20,9 @@ struct MaterialAssignment {
 /// Keeps the model's materials. Triangles without a material, or with plain white (as for an OBJ without its .mtl), get
 /// a plain material by name ("Iris", "lashes"), else by the role of their part, so that eyes and teeth do not look like
 /// skin, nor clothing; likewise where the image of the base colour could not be read. Where vertices have colours,
-/// these are white. On skin, teeth and eyes a blended material becomes a mask: they hide what is behind them, whatever
-/// an exporter says. `parts` is by PartId and may be empty: then only names are used. paint_eyes (painted_eyes.h) must
-/// run first, for eyes without an iris in the file.
+/// the plain material is white, which leaves them as they are. On skin, teeth and eyes a blended material becomes a
+/// mask: they hide what is behind them, whatever an exporter says. `parts` is by PartId and may be empty: then only
+/// names are used. paint_eyes (painted_eyes.h) must run first, for eyes without an iris in the file.
 MaterialAssignment assign_materials(const Model& model, const Surface& surface, std::span<const Part> parts);
 
 }  // namespace semblante
