@@ -311,7 +311,7 @@ class ObjReader {
   }
 
   /// Whether the polygons from `first` to before `end` show colours of vertices. They do not if their material has an
-  /// image: programs write the colours of the image to the vertices too.
+  /// image: programs write its colours to the vertices too, and the product would be too dark.
   [[nodiscard]] bool are_colored(std::size_t first, std::size_t end, int material) const {
     if (colors_.empty() || first == end) return false;
     if (material >= 0 && builder_.model.materials[static_cast<std::size_t>(material)].base_color_image >= 0)

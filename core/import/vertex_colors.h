@@ -15,13 +15,14 @@ namespace semblante::import {
 using GivenColors = std::vector<glm::vec3>;
 extern const glm::vec3 no_color;
 
-/// Whether these are three numbers within what any kind of file has for a colour.
+/// Whether all three numbers are finite and no larger than 65535, the full light of files with 16 bits.
 bool is_color(const glm::vec3& given);
 
 enum class ColorNumbers : std::uint8_t { bytes, integers, reals };
 
-/// The number that is full light. Files of bytes have 255. Others do not say: reals are 0..1 in most files and 0..255
-/// in some, wider integers 0..65535 or 0..255; the greatest one tells. A real may be slightly above 1.
+/// The number that means full light. For bytes it is 255. Other files do not state it: reals are 0..1 in most files and
+/// 0..255 in some, wider integers 0..65535 or 0..255. The largest number of the file tells which; reals of 0..1 may
+/// exceed 1 slightly.
 float full_light(std::span<const glm::vec3> given, ColorNumbers numbers);
 
 enum class ColorSpace : std::uint8_t { srgb, linear };

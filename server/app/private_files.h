@@ -7,7 +7,7 @@
 
 namespace semblante {
 
-/// What is private and lies within the web root, whose files everybody gets who asks: a sentence for each.
+/// A sentence for each private file or folder that lies within the web root, whose files anybody can read.
 std::vector<std::string> private_files_in_web_root(const ServeOptions& options);
 
 }  // namespace semblante
