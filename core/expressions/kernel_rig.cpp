@@ -13,6 +13,8 @@ namespace {
 static_assert(SEMBLANTE_FP_COUNT == feature_point_count && feature_point_count == mpeg4::feature_points.size());
 static_assert(SEMBLANTE_FAP_COUNT == mpeg4::fap_count);
 static_assert(SEMBLANTE_FAPU_COUNT == fapu_unit_count);
+static_assert(SEMBLANTE_VISEME_COUNT == mpeg4::viseme_count);
+static_assert(SEMBLANTE_EXPRESSION_COUNT == mpeg4::expression_count);
 static_assert(static_cast<int>(RigidMotion::left_eye) == SEMBLANTE_RIGID_LEFT_EYE);
 static_assert(static_cast<int>(RigidMotion::right_eye) == SEMBLANTE_RIGID_RIGHT_EYE);
 static_assert(static_cast<int>(RigidMotion::left_iris) == SEMBLANTE_RIGID_LEFT_IRIS);

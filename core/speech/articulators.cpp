@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/expressions/library.h"
+#include "core/tables/mpeg4.h"
 #include "core/types/feature_point_id.h"
 
 namespace semblante {
@@ -110,8 +111,8 @@ PauseShares pause_shares(double ms, std::span<const Segment> segments) {
   return {share(ms - at->begin, relaxation_ms), share(at->end - ms, anticipation_ms)};
 }
 
-std::array<MouthVector, 15> measure_visemes() {
-  std::array<MouthVector, 15> mouths{};
+std::array<MouthVector, mpeg4::viseme_count> measure_visemes() {
+  std::array<MouthVector, mpeg4::viseme_count> mouths{};
   for (std::size_t c = 0; c < mouth_size; ++c) {
     const auto point = parse_feature_point(components[c].point);
     for (std::size_t v = 0; v < mouths.size(); ++v)

@@ -5,11 +5,12 @@
 #include <limits>
 
 #include "core/speech/articulators.h"
+#include "core/tables/mpeg4.h"
 
 namespace semblante {
 namespace {
 
-constexpr std::size_t viseme_count = 15;
+using mpeg4::viseme_count;
 constexpr std::size_t pair_count = viseme_count * (viseme_count - 1) / 2;
 constexpr std::size_t kept_pairs = 16;    ///< the best pairs of each step are candidates for the path
 constexpr float movement_weight = 1.0F;   ///< of an error in movement, against one in place

@@ -89,6 +89,8 @@ struct Companion {
 namespace semblante::mpeg4 {
 
 inline constexpr std::size_t fap_count = faps.size();
+inline constexpr std::size_t viseme_count = visemes.size();
+inline constexpr std::size_t expression_count = expressions.size();  ///< entry 0 is "none"
 
 /// FAP by its number, 1..68.
 constexpr const Fap& fap(std::size_t number) { return faps[number - 1]; }

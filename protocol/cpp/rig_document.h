@@ -10,6 +10,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "core/tables/mpeg4.h"
 #include "core/types/articulation.h"
 #include "core/types/companion.h"
 #include "core/types/fapu.h"
@@ -19,9 +20,6 @@
 #include "protocol/cpp/sha256.h"
 
 namespace semblante {
-
-inline constexpr std::size_t viseme_count = 15;
-inline constexpr std::size_t expression_count = 7;  ///< entry 0 is "none"
 
 /// rig.json: all data of a face except vertices and weights. Lengths in model units, axes of MPEG-4.
 struct RigDocument {
@@ -103,8 +101,8 @@ struct RigDocument {
   std::vector<Companion> companions;
   double viseme_share = 0.85;                ///< of Eq. 5
   double articulation = usual_articulation;  ///< the multiple of the usual opening of the jaw that `visemes` contain
-  std::array<DisplacementSet, viseme_count> visemes;          ///< entry 0 "sil"
-  std::array<DisplacementSet, expression_count> expressions;  ///< entry 0 "none", empty
+  std::array<DisplacementSet, mpeg4::viseme_count> visemes;          ///< entry 0 "sil"
+  std::array<DisplacementSet, mpeg4::expression_count> expressions;  ///< entry 0 "none", empty
   glm::vec3 bounds_min{0.0F}, bounds_max{0.0F};
   std::vector<MaterialInfo> materials;  ///< at least one
   std::vector<ImageInfo> images;

@@ -182,9 +182,9 @@ RigDocument common_document(const Rig& rig, const MaterialAssignment& materials,
   document.tongue = rig.tongue;
   document.lids = rig.lids;
   document.companions = companions_of(rig.points);
-  for (std::size_t v = 0; v < viseme_count; ++v)
+  for (std::size_t v = 0; v < mpeg4::viseme_count; ++v)
     document.visemes[v] = on_this_face(worn_as(viseme_library()[v], options.worn), rig);
-  for (std::size_t e = 0; e < expression_count; ++e)
+  for (std::size_t e = 0; e < mpeg4::expression_count; ++e)
     document.expressions[e] = on_this_face(worn_as(expression_library()[e], options.worn), rig);
   for (const Material& material : materials.materials) document.materials.push_back(describe(material, images));
   for (const ImageArtefact& image : images)
