@@ -1,6 +1,5 @@
 #include "core/materials/eye_texture.h"
 
-#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <vector>
@@ -9,6 +8,7 @@
 #include <glm/vec3.hpp>
 
 #include "core/gltf/encode_image.h"
+#include "core/types/color.h"
 #include "core/types/moving_parts.h"
 
 namespace semblante {
@@ -35,11 +35,6 @@ glm::vec3 color_at(float x, float y) {
   return glm::mix(color, sclera_white, glm::smoothstep(0.96F, 1.05F, r));
 }
 
-std::uint8_t srgb(float linear) {
-  const float s = linear <= 0.0031308F ? 12.92F * linear : 1.055F * std::pow(linear, 1.0F / 2.4F) - 0.055F;
-  return static_cast<std::uint8_t>(std::lround(255.0F * std::clamp(s, 0.0F, 1.0F)));
-}
-
 /// A square of pixels, each the mean of `value(x, y)`, whose channels `encode` stores.
 template <class Value, class Encode>
 Image square(float span, int channels, Value value, Encode encode) {
@@ -62,7 +57,8 @@ Image square(float span, int channels, Value value, Encode encode) {
 }
 
 void add_color(const glm::vec3& color, std::vector<std::uint8_t>& pixels) {
-  for (int c = 0; c < 3; ++c) pixels.push_back(srgb(color[c]));
+  const Color8 encoded = srgb_of_linear(color);
+  pixels.insert(pixels.end(), encoded.begin(), encoded.end());
 }
 
 }  // namespace
