@@ -44,3 +44,8 @@ export function skinRoughness(roughness: number): number {
 
 /** Lashes and brows are transparent and unsorted: pixels below this opacity leave no edges. */
 export const leastOpacity = 0.02;
+/**
+ * From this opacity on a transparent material counts as solid: what is solid is drawn first and hides what lies behind
+ * it, because layers of hair are unsorted too.
+ */
+export const solidOpacity = 0.9;

@@ -16,6 +16,7 @@ import type { DrawableMesh } from '../gpu/drawable_mesh.ts';
 import { makeTangentTable, type TangentTable } from '../gpu/tangent_table.ts';
 import type { Pose } from '../kernel.ts';
 import { deformByCpu, deformByShader, makeDeformUniforms, setPose, type DeformUniforms } from './deform_material.ts';
+import { makeSolidPart } from './solid_part.ts';
 
 /** three.js takes the colours of vertices as linear light. */
 function linearColors(srgb: Uint8Array): Float32Array {
@@ -32,6 +33,7 @@ export class FaceView {
   readonly uniforms: DeformUniforms;
   private readonly table: TangentTable;
   private readonly depthMaterial = new MeshDepthMaterial({ depthPacking: RGBADepthPacking });
+  private readonly solid: Mesh | null;
 
   constructor(
     readonly mesh: DrawableMesh,
@@ -54,11 +56,17 @@ export class FaceView {
     this.object.castShadow = true;
     this.object.receiveShadow = true;
     this.object.customDepthMaterial = this.depthMaterial;
+    this.solid = makeSolidPart(this.object);
+    if (this.solid) {
+      this.solid.frustumCulled = false;
+      this.solid.receiveShadow = true;
+      this.object.add(this.solid);
+    }
     this.usePath('gpu');
   }
 
   usePath(path: DeformPath): void {
-    for (const material of [...this.materials, this.depthMaterial]) {
+    for (const material of [...this.materials, ...this.solidMaterials, this.depthMaterial]) {
       if (path === 'gpu') deformByShader(material, this.uniforms);
       else deformByCpu(material);
     }
@@ -79,14 +87,26 @@ export class FaceView {
   }
 
   set wireframe(on: boolean) {
-    for (const material of this.materials) if ('wireframe' in material) material.wireframe = on;
+    for (const material of [...this.materials, ...this.solidMaterials])
+      if ('wireframe' in material) material.wireframe = on;
+  }
+
+  /** Draws the face with other materials, one for each of its own; null: with its own again. */
+  wear(materials: Material[] | null): void {
+    this.object.material = materials ?? this.materials;
+    if (this.solid) this.solid.visible = materials === null;
   }
 
   dispose(): void {
     this.object.geometry.dispose();
+    for (const material of this.solidMaterials) material.dispose();
     this.uniforms.faceEntries.value.dispose();
     this.depthMaterial.dispose();
     this.object.removeFromParent();
+  }
+
+  private get solidMaterials(): Material[] {
+    return this.solid ? [this.solid.material].flat() : [];
   }
 
   private write(positions: Float32Array, normals: Float32Array): void {

@@ -1,14 +1,27 @@
 import type { RigMaterial } from '../../../protocol/ts/rig_document.ts';
 import type { DrawableMesh } from '../gpu/drawable_mesh.ts';
 import { entryTexels, rowNumbers, tableWidth } from '../gpu/deform_shader.ts';
-import { bareSkinColor, isSkinLike, mostMetalness, skinLook, skinRoughness, studioLight, whiteLevel } from '../gpu/studio_look.ts';
+import {
+  bareSkinColor,
+  isSkinLike,
+  leastOpacity,
+  mostMetalness,
+  skinLook,
+  skinRoughness,
+  solidOpacity,
+  studioLight,
+  whiteLevel,
+} from '../gpu/studio_look.ts';
 import { makeTangentTable, type TangentTable } from '../gpu/tangent_table.ts';
 import { ballPlaces, lidFields, type Pose } from '../kernel.ts';
 import { sunMatrix, unit, type OrbitCamera, type Vec3 } from './camera.ts';
 import type { Environment } from './environment.ts';
-import { alphaTestOfBlend } from './face_shader.ts';
 import { linear, scaled } from './gl.ts';
 import { graphicsFor, type Graphics, type GraphicsUser } from './graphics.ts';
+
+/** Opaque materials, then what is solid of the transparent ones, then those as a whole. */
+const passes = ['opaque', 'solid', 'blended'] as const;
+type Pass = (typeof passes)[number];
 
 /** What a device can do at once. */
 export interface RenderQuality {
@@ -249,16 +262,17 @@ export class FaceRenderer implements GraphicsUser {
     gl.useProgram(program);
     this.setPose(uniform, pose);
     this.setLight(uniform, camera, light, sunCamera, radius, at);
-    for (const blended of [false, true]) {
-      gl.depthMask(!blended);
-      if (blended) {
+    for (const pass of passes) {
+      if (pass === 'blended') {
+        gl.depthMask(false);
         gl.enable(gl.BLEND);
         gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
       }
       for (const { start, count, material } of loaded.mesh.groups) {
         const facts = loaded.materials[material];
-        if (!facts || (facts.alpha_mode === 'blend') !== blended) continue;
-        this.setMaterial(uniform, facts, this.images[material]!);
+        if (!facts || (facts.alpha_mode === 'blend') !== (pass !== 'opaque')) continue;
+        if (pass === 'solid' && !this.images[material]!.base) continue;
+        this.setMaterial(uniform, facts, this.images[material]!, pass);
         gl.drawElements(gl.TRIANGLES, count, gl.UNSIGNED_INT, start * 4);
       }
     }
@@ -327,7 +341,7 @@ export class FaceRenderer implements GraphicsUser {
     gl.bindTexture(gl.TEXTURE_2D, map);
   }
 
-  private setMaterial(uniform: Record<string, WebGLUniformLocation>, facts: RigMaterial, images: Images): void {
+  private setMaterial(uniform: Record<string, WebGLUniformLocation>, facts: RigMaterial, images: Images, pass: Pass): void {
     const { gl } = this;
     const set = (name: string): WebGLUniformLocation | null => uniform[name] ?? null;
     const blended = facts.alpha_mode === 'blend';
@@ -340,9 +354,9 @@ export class FaceRenderer implements GraphicsUser {
     gl.uniform4f(set('baseColor'), r, g, b, a);
     gl.uniform4fv(set('plainColor'), bare ? [...linear(bareSkinColor), a] : hasImage && blended ? [r, g, b, 0] : [r, g, b, a]);
     gl.uniform1f(set('mapShare'), images.base ? images.share : 0);
-    const least = facts.alpha_mode === 'mask' ? facts.alpha_cutoff : blended ? alphaTestOfBlend : 0;
-    gl.uniform1f(set('alphaTest'), least);
-    gl.uniform1i(set('isOpaque'), blended ? 0 : 1);
+    const cutoff = facts.alpha_mode === 'mask' ? facts.alpha_cutoff : 0;
+    gl.uniform1f(set('alphaTest'), { opaque: cutoff, solid: solidOpacity, blended: leastOpacity }[pass]);
+    gl.uniform1i(set('isOpaque'), pass === 'blended' ? 0 : 1);
     gl.uniform1f(set('roughness'), isSkin ? skinRoughness(facts.roughness) : facts.roughness);
     gl.uniform1f(set('metalness'), isSkin ? 0 : Math.min(facts.metallic, mostMetalness));
     gl.uniform1i(set('isSkin'), isSkin ? 1 : 0);

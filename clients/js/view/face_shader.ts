@@ -1,5 +1,5 @@
 import { deformDeclarations } from '../gpu/deform_shader.ts';
-import { leastOpacity, skinLook } from '../gpu/studio_look.ts';
+import { skinLook } from '../gpu/studio_look.ts';
 import { radianceLevels } from './environment.ts';
 
 /**
@@ -197,6 +197,3 @@ void main() {
   float opacity = isOpaque ? 1.0 : base.a;
   color = vec4(seen * opacity, opacity);
 }`;
-
-/** Below this opacity nothing of a transparent material is drawn. */
-export const alphaTestOfBlend = leastOpacity;

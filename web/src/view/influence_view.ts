@@ -87,7 +87,7 @@ export class InfluenceView {
 
   set on(on: boolean) {
     this.shown = on;
-    this.face.object.material = on ? this.materials : this.face.materials;
+    this.face.wear(on ? this.materials : null);
     this.extras.visible = on;
   }
 

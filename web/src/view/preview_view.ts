@@ -13,6 +13,7 @@ import {
   type Object3D,
 } from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
+import { makeSolidPart } from '@client/three/solid_part.ts';
 import { defaultMaterial, studioMaterial } from '@client/three/studio_material.ts';
 import type { PartRole } from '@protocol/rig_document.ts';
 import { disposeMaterials } from './dispose_materials.ts';
@@ -64,6 +65,7 @@ export interface Meant {
 export class PreviewView {
   readonly object = new Group();
   private readonly meshes: Mesh[] = [];
+  private readonly solidParts: Mesh[] = [];
   private readonly raycaster = new Raycaster();
   private readonly pointer = new Vector2();
   private table: VertexTable | null = null;
@@ -83,6 +85,13 @@ export class PreviewView {
       if (!node.geometry.getAttribute('normal')) node.geometry.computeVertexNormals();
       this.meshes.push(node);
     });
+    for (const mesh of this.meshes) {
+      const solid = makeSolidPart(mesh);
+      if (!solid) continue;
+      solid.receiveShadow = true;
+      mesh.add(solid);
+      this.solidParts.push(solid);
+    }
   }
 
   static async load(bytes: Uint8Array, richSkin: boolean): Promise<PreviewView> {
@@ -110,7 +119,7 @@ export class PreviewView {
   }
 
   set wireframe(on: boolean) {
-    for (const mesh of this.meshes)
+    for (const mesh of [...this.meshes, ...this.solidParts])
       if ('wireframe' in (mesh.material as object)) (mesh.material as unknown as { wireframe: boolean }).wireframe = on;
   }
 
@@ -308,7 +317,8 @@ export class PreviewView {
   dispose(): void {
     this.object.removeFromParent();
     for (const mesh of this.meshes) mesh.geometry.dispose();
-    disposeMaterials(new Set([...this.materials, ...this.meshes.map((mesh) => mesh.material as Material)]));
+    const drawn = [...this.meshes, ...this.solidParts].map((mesh) => mesh.material as Material);
+    disposeMaterials(new Set([...this.materials, ...drawn]));
   }
 }
 
