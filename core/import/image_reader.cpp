@@ -1,5 +1,6 @@
 #include "core/import/image_reader.h"
 
+#include <cassert>
 #include <string>
 #include <utility>
 
@@ -41,15 +42,28 @@ Result<Image> ImageReader::read(std::vector<std::uint8_t> bytes) {
   if (type != "image/webp") return Error{ErrorCode::unsupported, "", "is neither PNG nor JPEG nor WebP"};
   const auto size = webp_size(bytes);
   if (!size) return size.error();
-  if (size->pixels() > limits_.max_image_pixels || size->pixels() > pixels_left_) {
-    const bool of_file = size->pixels() <= limits_.max_image_pixels;
+  if (Status admitted = admit(*size, "WebP"); !admitted) return admitted.error();
+  return converted_webp(bytes);
+}
+
+Result<Pixels> ImageReader::decode(const Image& image) {
+  const auto size = declared_size(image.bytes);
+  assert(size && "read() gives no other images");
+  const std::string_view format = image.mime_type == "image/png" ? "PNG" : "JPEG";
+  if (Status admitted = admit(*size, format); !admitted) return admitted.error();
+  return decode_image(image.bytes, *size);
+}
+
+Status ImageReader::admit(const ImageSize& size, std::string_view format) {
+  if (size.pixels() > limits_.max_image_pixels || size.pixels() > pixels_left_) {
+    const bool of_file = size.pixels() <= limits_.max_image_pixels;
     return Error{ErrorCode::too_large, "",
-                 "is a WebP image of " + in_words(*size) +
+                 "is a " + std::string(format) + " of " + in_words(size) +
                      (of_file ? ", with which all together have more than " : ", more than ") +
                      std::to_string(of_file ? limits_.max_decoded_pixels : limits_.max_image_pixels) + " pixels"};
   }
-  pixels_left_ -= size->pixels();
-  return converted_webp(bytes);
+  pixels_left_ -= size.pixels();
+  return Unit{};
 }
 
 }  // namespace semblante::import

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
+#include "core/import/image_size.h"
 #include "core/import/limits.h"
+#include "core/import/pixels.h"
 #include "core/types/model.h"
 #include "core/types/result.h"
 
@@ -19,7 +22,13 @@ class ImageReader {
   /// name ("is ...").
   Result<Image> read(std::vector<std::uint8_t> bytes);
 
+  /// Decodes an image that read() gave, within the limits of decoded pixels. Errors: as of read().
+  Result<Pixels> decode(const Image& image);
+
  private:
+  /// Counts an image of this size, called `format`, as decoded, if that is within the limits.
+  Status admit(const ImageSize& size, std::string_view format);
+
   ImportLimits limits_;
   std::size_t pixels_left_;
 };

@@ -4,6 +4,7 @@
 
 #include "core/import/image_size.h"
 #include "core/import/limits.h"
+#include "core/import/opacity_image.h"
 #include "core/import/text.h"
 
 namespace semblante::import {
@@ -60,21 +61,60 @@ std::optional<std::vector<std::uint8_t>> ObjMaterials::load(std::string_view nam
   return std::move(*bytes);
 }
 
-int ObjMaterials::image(std::string_view rest) {
-  const std::string_view path = map_path(rest);
-  if (path.empty()) return -1;
-  if (const auto known = image_by_path_.find(path); known != image_by_path_.end()) return known->second;
-  if (image_by_path_.size() == max_image_paths) return -1;
-  int& index = image_by_path_[std::string(path)] = -1;
-  auto bytes = load(path);
-  if (!bytes) return -1;
-  auto read = images_.read(std::move(*bytes));
-  if (!read) {
-    builder_.warn("the image " + shown(path) + " " + read.error().message + "; it is omitted");
-    return -1;
+void ObjMaterials::omit_image(std::string_view path, const Error& fault) {
+  builder_.warn("the image " + shown(path) + " " + fault.message + "; it is omitted");
+}
+
+const Image* ObjMaterials::load_image(const std::string& path) {
+  if (path.empty()) return nullptr;
+  const auto known = images_by_path_.find(path);
+  if (known == images_by_path_.end()) {
+    if (images_by_path_.size() == max_image_paths) return nullptr;
+    LoadedImage& loaded = images_by_path_[path];
+    auto bytes = load(path);
+    if (!bytes) return nullptr;
+    auto read = images_.read(std::move(*bytes));
+    if (!read) {
+      omit_image(path, read.error());
+      return nullptr;
+    }
+    return &loaded.image.emplace(std::move(*read));
   }
-  builder_.model.images.push_back(std::move(*read));
-  return index = static_cast<int>(builder_.model.images.size()) - 1;
+  const LoadedImage& loaded = known->second;
+  if (loaded.index >= 0) return &builder_.model.images[static_cast<std::size_t>(loaded.index)];
+  return loaded.image ? &*loaded.image : nullptr;
+}
+
+int ObjMaterials::use_image(const std::string& path) {
+  if (load_image(path) == nullptr) return -1;
+  LoadedImage& loaded = images_by_path_[path];
+  if (loaded.index < 0) {
+    builder_.model.images.push_back(std::move(*loaded.image));
+    loaded.image.reset();
+    loaded.index = static_cast<int>(builder_.model.images.size()) - 1;
+  }
+  return loaded.index;
+}
+
+std::optional<Pixels> ObjMaterials::decode(const std::string& path) {
+  const Image* const image = load_image(path);
+  if (image == nullptr) return std::nullopt;
+  auto pixels = images_.decode(*image);
+  if (pixels) return std::move(*pixels);
+  omit_image(path, pixels.error());
+  return std::nullopt;
+}
+
+ObjMaterials::ColorImage ObjMaterials::make_color_image(const std::string& color_path,
+                                                        const std::string& opacity_path) {
+  const auto opacity = decode(opacity_path);
+  if (!opacity) return {};
+  const auto color = decode(color_path);
+  if (!color && load_image(color_path) != nullptr) return {};
+  auto made = with_opacity(color ? &*color : nullptr, *opacity);
+  if (!made) return {};
+  builder_.model.images.push_back(std::move(made->image));
+  return {static_cast<int>(builder_.model.images.size()) - 1, made->mode};
 }
 
 void ObjMaterials::read_line(std::string_view keyword, std::string_view rest) {
@@ -96,12 +136,10 @@ void ObjMaterials::read_line(std::string_view keyword, std::string_view rest) {
     material.metallic = unit(rest, material.metallic);
   } else if (keyword == "map_Kd") {
     current_->color_path = map_path(rest);
-    material.base_color_image = image(rest);
-    material.is_color_lost = material.base_color_image < 0;
   } else if (keyword == "map_d") {
     current_->opacity_path = map_path(rest);
   } else if (keyword == "norm") {
-    material.normal_image = image(rest);
+    current_->normal_path = map_path(rest);
   }
 }
 
@@ -124,22 +162,31 @@ void ObjMaterials::read_library(std::string_view name) {
 void ObjMaterials::fill(Material& material) {
   const auto found = by_name_.find(material.name);
   if (found == by_name_.end()) return;
-  const auto& [described, color_path, opacity_path] = found->second;
+  const auto& [described, color_path, normal_path, opacity_path] = found->second;
   const std::string name = material.name;
   material = described;
   material.name = name;
+  ColorImage image;
+  if (!opacity_path.empty() && opacity_path != color_path) {
+    const auto [made, is_new] = color_images_.try_emplace({color_path, opacity_path});
+    if (is_new) made->second = make_color_image(color_path, opacity_path);
+    image = made->second;
+    // Some exporters write an opacity of 0 beside the image.
+    if (image.index >= 0 && material.base_color.a == 0.0F) material.base_color.a = 1.0F;
+  }
+  material.alpha_mode = material.base_color.a < 1.0F ? Material::AlphaMode::blend : image.mode;
+  material.base_color_image = image.index >= 0 ? image.index : use_image(color_path);
+  material.normal_image = use_image(normal_path);
+  const Image* const color = load_image(color_path);
+  material.is_color_lost = color == nullptr && !color_path.empty();
+  if (color == nullptr) return;
   // With a texture, Kd is ignored: exporters write a value that old viewers did not multiply with the texture.
-  if (material.base_color_image >= 0) material.base_color = glm::vec4(1.0F, 1.0F, 1.0F, material.base_color.a);
-  if (material.base_color.a < 1.0F) material.alpha_mode = Material::AlphaMode::blend;
-  if (opacity_path.empty() || material.base_color_image < 0) return;
+  material.base_color = glm::vec4(1.0F, 1.0F, 1.0F, material.base_color.a);
   // Hair and lashes are cards: their image of colour has the opacity, and is named a second time. So is that of skin,
-  // by some exporters, so the material is a mask: what is blended hides nothing behind it.
-  const Image& image = builder_.model.images[static_cast<std::size_t>(material.base_color_image)];
-  if (opacity_path == color_path && has_alpha(image.bytes)) {
-    if (material.alpha_mode == Material::AlphaMode::opaque) material.alpha_mode = Material::AlphaMode::mask;
-  } else if (opacity_path != color_path) {
-    builder_.warn("the opacity of material " + shown(name) + " is an image of its own, " + shown(opacity_path) +
-                  ", and is omitted");
+  // by some exporters, so the material is a mask: what is blended casts no shadow.
+  const bool is_named_twice = opacity_path == color_path && has_alpha(color->bytes);
+  if (is_named_twice && material.alpha_mode == Material::AlphaMode::opaque) {
+    material.alpha_mode = Material::AlphaMode::mask;
   }
 }
 

@@ -9,7 +9,7 @@ fail() {
 # What the server and the studio are built with and run on. Why each is needed: deploy/README.md.
 product_packages=(build-essential cmake ninja-build pkg-config
   'libboost1.81-dev|libboost-dev|libboost1.74-dev|libboost1.83-dev|libboost1.88-dev' libssl-dev zlib1g-dev libzip-dev libsqlite3-dev
-  libwebp-dev libtinygltf-dev libdraco-dev libmeshoptimizer-dev libstb-dev nlohmann-json3-dev libglm-dev libeigen3-dev libcli11-dev libqrencode-dev
+  libpng-dev libturbojpeg0-dev libwebp-dev libtinygltf-dev libdraco-dev libmeshoptimizer-dev libstb-dev nlohmann-json3-dev libglm-dev libeigen3-dev libcli11-dev libqrencode-dev
   libseccomp-dev
   libopus-dev libogg-dev libsndfile1-dev libsamplerate0-dev libespeak-ng-dev
   libpocketsphinx-dev pocketsphinx-en-us

@@ -403,7 +403,7 @@ TEST(ImportGrowth, Zip) {
     return make_zip({{"quad.obj", to_bytes(lines(quad, "v 1 2 3\nf 1 2 3\n")(n))}});
   });
   expect_linear_model("zip: materials of an OBJ", ModelFormat::gltf_zip, 100'000, [](std::size_t n) {
-    return make_zip({{"quad.obj", to_bytes("mtllib quad.mtl\n" + quad + "usemtl a\nf 1 2 3\n")},
+    return make_zip({{"quad.obj", to_bytes("mtllib quad.mtl\n" + quad + "usemtl 0\nf 1 2 3\n")},
                      {"quad.mtl", to_bytes(lines("", [](std::string& text, std::size_t i) {
                         text += "newmtl " + std::to_string(i) + "\nKd 1 1 1\nmap_Kd x" + std::to_string(i) + ".png\n";
                       })(n))}});

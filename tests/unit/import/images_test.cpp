@@ -1,32 +1,15 @@
 // Images of all formats: what is kept, what is converted, and what is left out with a warning.
 #include <gtest/gtest.h>
-#include <stb/stb_image.h>
 
 #include "core/import/image_reader.h"
 #include "tests/unit/import/compressed_quads.h"
+#include "tests/unit/import/shown_pixels.h"
 #include "tests/unit/import/webp_images.h"
 
 namespace semblante::test {
 namespace {
 
 const Bytes png = png_of(4, 4);
-
-struct Pixels {
-  int width = 0, height = 0, channels = 0;
-  Bytes rgba;
-};
-
-/// As every client reads it.
-Pixels pixels_of(const Image& image) {
-  Pixels out;
-  stbi_uc* const data = stbi_load_from_memory(image.bytes.data(), static_cast<int>(image.bytes.size()), &out.width,
-                                              &out.height, &out.channels, STBI_rgb_alpha);
-  EXPECT_NE(data, nullptr) << image.mime_type;
-  if (data == nullptr) return out;
-  out.rgba.assign(data, data + std::ptrdiff_t{4} * out.width * out.height);
-  stbi_image_free(data);
-  return out;
-}
 
 nlohmann::json by_extension(const char* name, int source) { return {{"extensions", {{name, {{"source", source}}}}}}; }
 
@@ -36,7 +19,7 @@ TEST(Webp, WithoutLoss_BecomesAPng_PixelByPixel) {
   EXPECT_TRUE(model->warnings.empty()) << model->warnings.front();
   ASSERT_EQ(model->images.size(), 1U);
   EXPECT_EQ(model->images[0].mime_type, "image/png");
-  const Pixels pixels = pixels_of(model->images[0]);
+  const ShownPixels pixels = pixels_of(model->images[0]);
   EXPECT_EQ(pixels.width, 2);
   EXPECT_EQ(pixels.rgba, (Bytes{255, 0, 0, 255, 0, 255, 0, 128, 0, 0, 255, 255, 10, 20, 30, 0}));
   EXPECT_EQ(model->materials[0].base_color_image, 0);
@@ -48,7 +31,7 @@ TEST(Webp, WithLossAndOpaque_BecomesAJpeg_AlsoAsAPlainImage) {
   ASSERT_TRUE(model) << model.error().message;
   ASSERT_EQ(model->images.size(), 1U);
   EXPECT_EQ(model->images[0].mime_type, "image/jpeg");
-  const Pixels pixels = pixels_of(model->images[0]);
+  const ShownPixels pixels = pixels_of(model->images[0]);
   ASSERT_EQ(pixels.rgba.size(), 16U * 16 * 4);
   const auto expect_color = [&](std::size_t x, int red, int green, int blue) {
     const std::size_t at = (8 * 16 + x) * 4;
@@ -168,10 +151,10 @@ TEST(Webp, ThatDeclaresMorePixelsThanAllowed_IsNotDecoded) {
   Bytes huge = lossless_webp;  // 16384 x 16384: a gigabyte
   for (std::size_t i = 0; i < 3; ++i) huge[lossless_webp_size_at + i] = 0xFF;
   huge[lossless_webp_size_at + 3] |= 0x0F;
-  EXPECT_EQ(warning_of(huge), "image 0 is a WebP image of 16384 x 16384, more than 16777216 pixels; it is omitted");
+  EXPECT_EQ(warning_of(huge), "image 0 is a WebP of 16384 x 16384, more than 16777216 pixels; it is omitted");
   ImportLimits limits;
   limits.max_image_pixels = 3;
-  EXPECT_EQ(warning_of(lossless_webp, limits), "image 0 is a WebP image of 2 x 2, more than 3 pixels; it is omitted");
+  EXPECT_EQ(warning_of(lossless_webp, limits), "image 0 is a WebP of 2 x 2, more than 3 pixels; it is omitted");
 }
 
 TEST(Webp, AllTogether_HaveALimit) {

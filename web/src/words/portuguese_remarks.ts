@@ -37,8 +37,6 @@ export const portugueseRemarks: Sentences = {
     'a malha {number} {name} não está em nenhum nó da cena: os seus vértices mantêm os números, os seus triângulos ficaram de fora',
   'mesh {number} {name} is in {count} nodes; only the first is kept': 'a malha {number} {name} está em {count} nós; só o primeiro foi mantido',
   'mesh {number} {name} is in {count} nodes; only {kept} are kept': 'a malha {number} {name} está em {count} nós; só {kept} foram mantidos',
-  'the opacity of material {material} is an image of its own, {image}, and is omitted':
-    'a opacidade do material {material} é uma imagem à parte, {image}, e ficou de fora',
   '{primitive} has no positions and is omitted': '{primitive} não tem posições e ficou de fora',
   '{primitive} has points or lines: its vertices keep their numbers, nothing is drawn':
     '{primitive} tem pontos ou linhas: os seus vértices mantêm os números, nada é desenhado',
@@ -58,9 +56,10 @@ export const portugueseRemarks: Sentences = {
   'is a KTX2 texture (Basis Universal), which cannot be read here; PNG, JPEG and WebP can':
     'é uma textura KTX2 (Basis Universal), que aqui não pode ser lida; PNG, JPEG e WebP podem',
   'is neither PNG nor JPEG nor WebP': 'não é PNG, nem JPEG, nem WebP',
-  'is a WebP image of {size}, more than {limit} pixels': 'é uma imagem WebP de {size}, mais de {limit} pixels',
-  'is a WebP image of {size}, with which all together have more than {limit} pixels':
-    'é uma imagem WebP de {size}, com a qual todas juntas têm mais de {limit} pixels',
+  'is a {format} of {size}, more than {limit} pixels': 'é um {format} de {size}, mais de {limit} pixels',
+  'is a {format} of {size}, with which all together have more than {limit} pixels':
+    'é um {format} de {size}, com o qual todas juntas têm mais de {limit} pixels',
+  'is a {format} that cannot be decoded': 'é um {format} que não pode ser decodificado',
 
   // How the head stands.
   'the head {stance}; it is turned upright': 'a cabeça {stance}; ela foi endireitada',
