@@ -17,6 +17,11 @@ BodySink::BodySink(const http::BodyPlan& plan, SharedState& state, http::Request
   file_.emplace(state, request.body_file->path(), O_WRONLY | O_CREAT | O_EXCL);
 }
 
+std::optional<http::Problem> BodySink::announce(std::uint64_t size) const {
+  if (size > plan_.max_bytes - request_.body_size) return too_large(plan_);
+  return std::nullopt;
+}
+
 std::optional<http::Problem> BodySink::append(std::string_view piece) {
   request_.body_size += piece.size();
   if (request_.body_size > plan_.max_bytes) return too_large(plan_);

@@ -2,6 +2,7 @@
 
 // Private to net/.
 
+#include <cstdint>
 #include <optional>
 #include <string_view>
 
@@ -20,6 +21,8 @@ class BodySink {
   BodySink(const BodySink&) = delete;
   BodySink& operator=(const BodySink&) = delete;
 
+  /// The problem, if `size` further bytes are too many: known before they come.
+  [[nodiscard]] std::optional<http::Problem> announce(std::uint64_t size) const;
   /// The problem, if this piece cannot be stored: `content-too-large`, `overloaded`, or that of
   /// Application::unwritten_body.
   [[nodiscard]] std::optional<http::Problem> append(std::string_view piece);

@@ -138,7 +138,13 @@ std::size_t RequestParser::on_chunk_body_impl(std::uint64_t, View piece, ErrorCo
   return on_body_impl(piece, error);
 }
 
-void RequestParser::on_chunk_header_impl(std::uint64_t, View extensions, ErrorCode& error) {
+void RequestParser::on_chunk_header_impl(std::uint64_t size, View extensions, ErrorCode& error) {
+  assert(sink_ != nullptr);
+  problem_ = sink_->announce(size);
+  if (problem_) {
+    error = E::body_limit;
+    return;
+  }
   // Beast takes any byte within quotes. A proxy that ends the line at a line feed alone would see another body.
   if (std::any_of(extensions.begin(), extensions.end(),
                   [](unsigned char c) { return (c < ' ' && c != '\t') || c == 0x7f; })) {
