@@ -66,6 +66,7 @@ http::BodyPlan plan_body(const Route& route, std::string_view media_type, const 
     case BodyKind::none:
       return {limits.max_json_bytes, false, false, route.runs == Runs::at_once};
     case BodyKind::json:
+    case BodyKind::json_or_models:
       if (media_type == "multipart/form-data") break;
       return {limits.max_json_bytes, false, body.announced};
     case BodyKind::performance:
@@ -73,9 +74,11 @@ http::BodyPlan plan_body(const Route& route, std::string_view media_type, const 
     case BodyKind::fap:
       return {max_fap_body_bytes, true, body.announced};
     case BodyKind::upload:
-      return {limits.max_upload_bytes, true, body.announced, false, Advice::reduce_model};
+      break;
   }
-  return {limits.max_upload_bytes, true, body.announced};
+  // A form of another kind has no model that could be reduced.
+  const auto if_too_large = body.kind == BodyKind::json ? std::nullopt : std::optional(Advice::reduce_model);
+  return {limits.max_upload_bytes, true, body.announced, false, if_too_large};
 }
 
 bool is_page(const ApiConfig& config, std::string_view path) {

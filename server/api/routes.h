@@ -13,11 +13,12 @@ namespace semblante::api {
 
 /// The limit of a body, and where it is buffered while it arrives.
 enum class BodyKind {
-  none,         ///< a body is read and discarded
-  json,         ///< in memory; a form (multipart/form-data) like an upload
-  upload,       ///< a model: to disk
-  performance,  ///< a performance: to disk
-  fap,          ///< a .fap file, to disk
+  none,            ///< a body is read and discarded
+  json,            ///< in memory; a form (multipart/form-data) of the size of an upload, to disk
+  json_or_models,  ///< likewise, whose form has models
+  upload,          ///< a model: to disk
+  performance,     ///< a performance: to disk
+  fap,             ///< a .fap file, to disk
 };
 
 /// The body that a route accepts.

@@ -28,7 +28,7 @@ std::string body_of(const Operation& operation) {
   if (!operation.json->contains("requestBody")) return "{}";
   const Json& body = operation.json->at("requestBody");
   const std::string kind = body.value("x-body", std::string("json"));
-  if (kind != "json" && kind != "upload" && kind != "performance" && kind != "fap")
+  if (kind != "json" && kind != "json_or_models" && kind != "upload" && kind != "performance" && kind != "fap")
     throw std::runtime_error(operation.function + ": there is no x-body " + kind);
   const bool announced = operation.json->at("responses").contains("411");
   if (announced && !body.value("required", false))

@@ -238,8 +238,9 @@ TEST_F(ExpressionRoutes, BadExamples_AreRefusedAtOnceOrFailTheirJob) {
   expect_problem(post_form({{"options", options}, {"expression", "", "a.obj"}}), 422, "empty-model", "/expression");
   expect_problem(post_form({{"options", options}, {"expression", "what?"}}), 422, "unsupported-model", "/expression");
   expect_problem(post_form({{"options", "{"}, {"expression", smile_obj()}}), 400, "malformed-request");
-  expect_problem(post_form({{"options", options}, {"expression", std::string(400'000, 'v')}}), 413,
-                 "content-too-large");
+  const auto large = post_form({{"options", options}, {"expression", std::string(400'000, 'v')}});
+  expect_problem(large, 413, "content-too-large");
+  EXPECT_EQ(json_of(large).value("advice", ""), "reduce-model");
   expect_problem(request(port(), "POST", "/v1/expressions", "x", {{"Content-Type", "model/obj"}}), 415,
                  "unsupported-media-type");
 
