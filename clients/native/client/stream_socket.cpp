@@ -112,7 +112,8 @@ struct StreamSocket::Impl {
     auto shaken = wait("the stream refuses the connection",
                        [&](auto done) { socket.async_handshake(response, url.authority(), target, std::move(done)); });
     if (!shaken) {
-      if (auto refusal = stream_refusal(static_cast<int>(response.result_int()), where)) return *std::move(refusal);
+      if (auto refusal = stream_refusal(static_cast<int>(response.result_int()), response.body(), where))
+        return *std::move(refusal);
       return shaken;
     }
     const auto agreed = response[http::field::sec_websocket_protocol];

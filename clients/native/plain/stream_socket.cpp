@@ -136,7 +136,7 @@ Result<StreamSocket> StreamSocket::open(const ServerAddress& server, std::string
     is_whole = *taken;
   }
   const HttpResponse& response = answer.response();
-  if (auto refusal = stream_refusal(response.status, where)) return *std::move(refusal);
+  if (auto refusal = stream_refusal(response.status, response.body, where)) return *std::move(refusal);
   if (response.status != 101) return refused("the server answered " + std::to_string(response.status));
   if (response.header("sec-websocket-accept") != web_socket_accept(key)) return refused("this is no WebSocket");
   if (response.header("sec-websocket-protocol") != protocol) return no_such_subprotocol(protocol, where);
