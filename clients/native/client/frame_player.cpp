@@ -49,7 +49,8 @@ Result<bool> FramePlayer::pump() {
       case SEMBLANTE_EVENT_FAULT:
         return std::move(*event->error);
       case SEMBLANTE_EVENT_END:
-        return false;
+        if (event->is_final) return false;
+        break;  // a server that stops starts again
       default:
         break;
     }

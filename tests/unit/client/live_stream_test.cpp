@@ -34,26 +34,10 @@ using Socket = websocket::stream<asio::ip::tcp::socket>;
 /// A server for one connection that says what a test wants it to say.
 class ScriptedServer {
  public:
-  ScriptedServer(std::string protocol, std::function<void(Socket&)> script)
+  ScriptedServer(std::string protocol, std::function<void(Socket&)> script, int connections = 1)
       : acceptor_(io_, {asio::ip::make_address("127.0.0.1"), 0}),
-        thread_([this, protocol = std::move(protocol), script = std::move(script)] {
-          beast::error_code problem;
-          Socket socket(acceptor_.accept());
-          socket.set_option(websocket::stream_base::decorator([&](websocket::response_type& response) {
-            if (!protocol.empty()) {
-              response.set(beast::http::field::sec_websocket_protocol, protocol);
-            }
-          }));
-          socket.accept(problem);
-          beast::flat_buffer hello;
-          if (!problem) {
-            socket.read(hello, problem);
-          }
-          if (!problem) {
-            hello_ = beast::buffers_to_string(hello.data());
-            script(socket);
-            socket.read(hello, problem);  // until the client goes
-          }
+        thread_([this, protocol = std::move(protocol), script = std::move(script), connections] {
+          for (int i = 0; i < connections; ++i) serve(protocol, script);
         }) {}
   ~ScriptedServer() { thread_.join(); }
   ScriptedServer(const ScriptedServer&) = delete;
@@ -63,6 +47,26 @@ class ScriptedServer {
   [[nodiscard]] const std::string& hello() const { return hello_; }
 
  private:
+  void serve(const std::string& protocol, const std::function<void(Socket&)>& script) {
+    beast::error_code problem;
+    Socket socket(acceptor_.accept());
+    socket.set_option(websocket::stream_base::decorator([&](websocket::response_type& response) {
+      if (!protocol.empty()) {
+        response.set(beast::http::field::sec_websocket_protocol, protocol);
+      }
+    }));
+    socket.accept(problem);
+    beast::flat_buffer hello;
+    if (!problem) {
+      socket.read(hello, problem);
+    }
+    if (!problem) {
+      hello_ = beast::buffers_to_string(hello.data());
+      script(socket);
+      socket.read(hello, problem);  // until the client goes
+    }
+  }
+
   asio::io_context io_;
   asio::ip::tcp::acceptor acceptor_;
   std::string hello_;
@@ -110,11 +114,17 @@ TEST(StreamSocket, HostileServer_IsAnError) {
     ASSERT_FALSE(socket);
     EXPECT_EQ(socket.error().code, ErrorCode::io);
   }
-  {  // No such stream.
-    const CannedServer server("HTTP/1.1 404 Not Found\r\nContent-Length: 0\r\n\r\n");
+  // No such stream; no server of faces.
+  for (const auto& [body, words] :
+       {std::pair{R"({"type":"/problems/not-found","status":404})", "no such stream"},
+        std::pair{"<p>There is no such page</p>", "no Semblante server"}, std::pair{"", "no Semblante server"}}) {
+    SCOPED_TRACE(body);
+    const CannedServer server("HTTP/1.1 404 Not Found\r\nContent-Length: " +
+                              std::to_string(std::string_view(body).size()) + "\r\n\r\n" + body);
     const auto socket = StreamSocket::open(*client::parse_url(server.url()), "s");
     ASSERT_FALSE(socket);
     EXPECT_EQ(socket.error().code, ErrorCode::missing);
+    EXPECT_NE(socket.error().message.find(words), std::string::npos) << socket.error().message;
   }
   {  // Silence.
     const CannedServer server("");
@@ -303,6 +313,30 @@ TEST(FramePlayer, FrameThatIsSentAgain_ComesOnce) {
     const auto frame = player.next_received();
     ASSERT_TRUE(frame && frame->has_value());
     EXPECT_EQ((*frame)->sequence, sequence);
+  }
+}
+
+TEST(FramePlayer, ServerThatStops_IsWaitedFor) {
+  std::uint64_t starts = 0;
+  const ScriptedServer server(
+      "semblante.v1",
+      [&starts](Socket& socket) {
+        FrameEncoder encoder;
+        Header header = named_header();
+        header.epoch = ++starts;
+        say(socket, encoder, header);
+        say(socket, encoder, Keyframe{1, 100, with_jaw(0)});
+        say(socket, encoder, End{starts == 1 ? EndReason::shutdown : EndReason::finished});
+        beast::error_code problem;
+        socket.close(websocket::close_code::going_away, problem);
+      },
+      2);
+  LiveStream stream(server.url(), "s");
+  FramePlayer player(stream, patience);
+  for (const bool is_frame : {true, true, false}) {
+    const auto frame = player.next_received();
+    ASSERT_TRUE(frame) << frame.error().message;
+    EXPECT_EQ(frame->has_value(), is_frame);
   }
 }
 
