@@ -306,11 +306,11 @@ export class StreamClient extends Emitter<StreamEvents> {
       this.act();
     };
     socket.onopen = current(({ runtime, stream }, now) => runtime.functions.semblante_stream_opened(stream, now));
-    socket.onclose = current(({ runtime, stream }, now) => {
+    // In Node up to 22 no close event follows the error of a connection that cannot be made.
+    socket.onclose = socket.onerror = current(({ runtime, stream }, now) => {
       this.socket = null;
       runtime.functions.semblante_stream_closed(stream, 0, now);
     });
-    socket.onerror = () => undefined; // a close event follows
     socket.onmessage = (event: MessageEvent<ArrayBuffer | string>) => {
       // A text is no message of this subprotocol: the library finds its byte unreadable.
       if (socket === this.socket) this.receive(typeof event.data === 'string' ? new Uint8Array(1) : new Uint8Array(event.data));

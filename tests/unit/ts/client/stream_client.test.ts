@@ -158,6 +158,26 @@ describe('StreamClient', () => {
     }
   });
 
+  it('Connect_ErrorWithoutClose_ComesBackAfterThePause', () => {
+    const { stream } = client();
+    stream.connect();
+    FakeSocket.last.fail();
+    expect(stream.state).toBe('waiting');
+    vi.advanceTimersByTime(250);
+    expect(FakeSocket.sockets.length).toBe(2);
+  });
+
+  it('Connect_ErrorThenClose_CountsOnce', () => {
+    const { stream } = client({ backoff: { first: 100, longest: 1000 } });
+    stream.connect();
+    FakeSocket.last.fail();
+    FakeSocket.last.drop();
+    vi.advanceTimersByTime(102);
+    expect(FakeSocket.sockets.length).toBe(2);
+    FakeSocket.sockets[0]!.drop(); // late
+    expect(stream.state).toBe('connecting');
+  });
+
   it('Receive_UnreadableBytes_FaultsAndStartsAnew', () => {
     const { stream, events } = client();
     stream.connect();

@@ -63,6 +63,11 @@ export class FakeSocket {
     this.forget();
     this.onclose?.();
   }
+  /** As the WebSocket of Node up to 22 does when it cannot connect: no close event follows. */
+  fail(): void {
+    this.forget();
+    this.onerror?.();
+  }
 
   private forget(): void {
     this.writer?.far.client.dispose();
