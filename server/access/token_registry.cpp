@@ -12,11 +12,13 @@ bool has_expired(const store::TokenRecord& token, std::int64_t now) { return tok
 
 }  // namespace
 
-Verification TokenRegistry::verdict_of(const Entry& entry, std::int64_t now) {
+Verification TokenRegistry::verdict_of(Entry& entry, std::int64_t now) {
   const auto& token = entry.record;
   if (has_expired(token, now)) return {Verdict::expired, {}};
   const auto scope = parse_scope(token.scope);
   if (!scope) return {};
+  // It had expired, and the clock was set back: the rights that ended stay so.
+  if (*entry.ended) entry.ended = std::make_shared<std::atomic<bool>>(false);
   return {Verdict::accepted, {*scope, token.stream, token.model, token.id, entry.ended}};
 }
 

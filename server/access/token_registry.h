@@ -55,7 +55,7 @@ class TokenRegistry {
   };
 
   void replace(std::vector<store::TokenRecord> tokens);
-  static Verification verdict_of(const Entry& entry, std::int64_t now);
+  static Verification verdict_of(Entry& entry, std::int64_t now);
 
   const Now now_;
   const DigestKey key_;

@@ -79,6 +79,21 @@ TEST_F(RegistryTest, ExpiredToken_IsToldSo_AndItsRightsEnd) {
       << "only its owner learns that there was one";
 }
 
+TEST_F(RegistryTest, ClockSetBack_BeforeTheEndOfAToken_GivesRightsAnew) {
+  auto made = make_token({});
+  made.record.expires = now_ + 10;
+  store_.add_token(made.record);
+  registry_.load(store_);
+  const auto before = registry_.verify(made.text).rights;
+  now_ += 1000;  // set wrong, as by a clock without a battery
+  registry_.refresh(store_);
+  now_ -= 1000;
+  const auto after = registry_.verify(made.text).rights;
+  registry_.refresh(store_);
+  EXPECT_TRUE(*before.ended) << "its connections are closed";
+  EXPECT_FALSE(*after.ended) << "new ones are not";
+}
+
 TEST_F(RegistryTest, ChangesByAnotherProgram_AreSeenAtTheNextRefresh) {
   const auto made = make_token({});
   store_.add_token(made.record);
