@@ -6,9 +6,7 @@
 #include "core/json/json_tree.h"
 
 namespace semblante::client {
-namespace {
 
-/// The text of a problem document (RFC 9457), for display.
 std::string words_of(const HttpResponse& response) {
   std::string words = "the server answered " + std::to_string(response.status);
   const auto document =
@@ -25,8 +23,6 @@ std::string words_of(const HttpResponse& response) {
   if (const auto advice = find_advice(member_of("advice"))) words.append(": ").append(text_of(*advice).words);
   return words;
 }
-
-}  // namespace
 
 std::string_view HttpResponse::header(std::string_view name) const {
   const auto found = std::find_if(headers.begin(), headers.end(), [&](const auto& h) { return h.first == name; });

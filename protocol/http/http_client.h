@@ -32,6 +32,9 @@ struct HttpResponse {
   [[nodiscard]] std::string_view header(std::string_view name) const;
 };
 
+/// For display: the status, and the text of a problem document (RFC 9457). No other body is quoted.
+std::string words_of(const HttpResponse& response);
+
 struct HttpLimits {
   std::size_t max_body = std::size_t{256} << 20U;   ///< of a response
   std::size_t max_header = std::size_t{60} << 10U;  ///< at most that; also of trailers and chunk extensions

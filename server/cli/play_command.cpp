@@ -49,7 +49,7 @@ std::atomic<bool> interrupted{false};
 /// The server's error message.
 std::string reason_of(const client::HttpResponse& reply) {
   const auto problem = read_json_object(reply.body, answer_limits);
-  std::string text = std::to_string(reply.status);
+  std::string text = "the server answered " + std::to_string(reply.status);
   if (!problem) return text;
   JsonCursor::Report report;
   const JsonCursor root(json_view(*problem), report);

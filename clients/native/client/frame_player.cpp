@@ -47,7 +47,8 @@ Result<bool> FramePlayer::pump() {
             event->code == static_cast<std::uint32_t>(StreamErrorCode::not_found) ? ErrorCode::missing : ErrorCode::io,
             "stream" + event->error->where, "error of the server: " + event->error->message};
       case SEMBLANTE_EVENT_FAULT:
-        return std::move(*event->error);
+        if (event->error->code != ErrorCode::io) return std::move(*event->error);
+        break;  // a silent server: its connection is lost
       case SEMBLANTE_EVENT_END:
         if (event->is_final) return false;
         break;  // a server that stops starts again

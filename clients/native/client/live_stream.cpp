@@ -36,6 +36,7 @@ runtime::StreamOptions machine_options(const LiveStreamOptions& from) {
   options.resume = from.resume;
   options.retry_first = to_ms(from.first_pause);
   options.retry_longest = to_ms(from.longest_pause);
+  options.silence_limit = to_ms(from.silence_limit);
   options.seed = from.seed;
   if (from.socket.json) options.encode = append_json;
   return options;

@@ -21,6 +21,8 @@ struct LiveStreamOptions {
   bool take_over = false;             ///< of a publisher: replaces the current source
   /// First and longest pause before reconnecting. Each attempt doubles the pause; half of it is random.
   std::chrono::milliseconds first_pause{250}, longest_pause{10'000};
+  /// A connection is lost when the server answers nothing for this long.
+  std::chrono::milliseconds silence_limit{20'000};
   std::uint64_t seed = std::random_device{}();
 };
 

@@ -117,9 +117,7 @@ Status StreamPublisher::make_stream() {
   }
   // Another client may have made it meanwhile.
   if (answer->status == 201 || answer->status == 409) return Unit{};
-  return Error{
-      ErrorCode::invalid_argument, stream_,
-      "the server does not create this stream: " + std::to_string(answer->status) + " " + answer->body.substr(0, 500)};
+  return Error{ErrorCode::invalid_argument, stream_, "the server does not create this stream: " + words_of(*answer)};
 }
 
 void StreamPublisher::listen(std::chrono::milliseconds patience) {

@@ -10,12 +10,13 @@ namespace semblante::client {
 
 /// What the answer to a refused WebSocket says about the stream at `where`; empty if it says nothing about it.
 inline std::optional<Error> stream_refusal(int status, std::string_view body, const std::string& where) {
-  // Any server answers 404 to an address that it does not know; a problem document is of a Semblante server.
-  if (status == 404)
-    return Error{ErrorCode::missing, where,
-                 body.find("/problems/not-found") != std::string_view::npos
-                     ? "there is no such stream"
-                     : "the server answered 404, as no Semblante server does: is this its address?"};
+  if (status == 404) {
+    // Any server answers 404 to an address that it does not know, and so does a proxy whose server is away; a problem
+    // document is of a Semblante server.
+    if (body.find("/problems/not-found") != std::string_view::npos)
+      return Error{ErrorCode::missing, where, "there is no such stream"};
+    return Error{ErrorCode::io, where, "the server answered 404, as no Semblante server does: is this its address?"};
+  }
   if (status == 401 || status == 403)
     return Error{ErrorCode::invalid_argument, where, "the server does not accept the token, or asks for one"};
   return std::nullopt;

@@ -12,11 +12,12 @@
 
 namespace semblante::testing {
 
-/// Accepts one connection on a free port, reads a request's head, writes given bytes whatever it says, and closes; or
-/// keeps silent when the bytes are empty.
+/// Accepts connections on a free port, one after another: reads a request's head, writes given bytes whatever it says,
+/// and closes; or keeps silent when the bytes are empty.
 class CannedServer {
  public:
-  explicit CannedServer(std::string answer) : answer_(std::move(answer)), listener_(socket(AF_INET, SOCK_STREAM, 0)) {
+  explicit CannedServer(std::string answer, int connections = 1)
+      : answer_(std::move(answer)), listener_(socket(AF_INET, SOCK_STREAM, 0)) {
     sockaddr_in address{};
     address.sin_family = AF_INET;
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
@@ -25,7 +26,9 @@ class CannedServer {
                            listen(listener_, 4) == 0 &&
                            getsockname(listener_, reinterpret_cast<sockaddr*>(&address), &size) == 0;
     port_ = listening ? ntohs(address.sin_port) : 0;
-    thread_ = std::thread([this] { serve(); });
+    thread_ = std::thread([this, connections] {
+      for (int i = 0; i < connections; ++i) serve();
+    });
   }
   ~CannedServer() {
     stop_ = true;
@@ -54,6 +57,7 @@ class CannedServer {
       return;
     }
     const int peer = accept(listener_, nullptr, nullptr);
+    request_.clear();
     char buffer[4096];
     while (request_.find("\r\n\r\n") == std::string::npos && readable(peer)) {
       const ssize_t size = recv(peer, buffer, sizeof(buffer), 0);

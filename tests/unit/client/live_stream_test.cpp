@@ -14,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include "clients/native/client/frame_player.h"
+#include "clients/native/client/stream_publisher.h"
 #include "protocol/cpp/json_codec.h"
 #include "tests/support/frame_encoder.h"
 #include "tests/support/wait.h"
@@ -115,15 +116,20 @@ TEST(StreamSocket, HostileServer_IsAnError) {
     EXPECT_EQ(socket.error().code, ErrorCode::io);
   }
   // No such stream; no server of faces.
-  for (const auto& [body, words] :
-       {std::pair{R"({"type":"/problems/not-found","status":404})", "no such stream"},
-        std::pair{"<p>There is no such page</p>", "no Semblante server"}, std::pair{"", "no Semblante server"}}) {
+  struct Refusal {
+    const char *body, *words;
+    ErrorCode code;
+  };
+  for (const auto& [body, words, code] :
+       {Refusal{R"({"type":"/problems/not-found","status":404})", "no such stream", ErrorCode::missing},
+        Refusal{"<p>There is no such page</p>", "no Semblante server", ErrorCode::io},
+        Refusal{"", "no Semblante server", ErrorCode::io}}) {
     SCOPED_TRACE(body);
     const CannedServer server("HTTP/1.1 404 Not Found\r\nContent-Length: " +
                               std::to_string(std::string_view(body).size()) + "\r\n\r\n" + body);
     const auto socket = StreamSocket::open(*client::parse_url(server.url()), "s");
     ASSERT_FALSE(socket);
-    EXPECT_EQ(socket.error().code, ErrorCode::missing);
+    EXPECT_EQ(socket.error().code, code);
     EXPECT_NE(socket.error().message.find(words), std::string::npos) << socket.error().message;
   }
   {  // Silence.
@@ -186,6 +192,19 @@ TEST(StreamSocket, Close_TellsTheReason) {
   EXPECT_FALSE(socket->read(patience));
   EXPECT_EQ(socket->close_code(), 1013);
   EXPECT_EQ(socket->close_reason(), "slow");
+}
+
+TEST(StreamPublisher, ServerThatMakesNoStream_IsQuotedByItsProblem) {
+  const std::string body = R"({"type":"/problems/not-found","title":"Nothing is made here","status":404})";
+  const CannedServer server(
+      "HTTP/1.1 404 Not Found\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body, 2);
+  client::PublisherOptions options;
+  options.create = true;
+  client::StreamPublisher publisher(*client::parse_url(server.url()), "s", options);
+  const Status done = publisher.look_after();
+  ASSERT_FALSE(done);
+  EXPECT_EQ(done.error().message,
+            "the server does not create this stream: the server answered 404: Nothing is made here");
 }
 
 TEST(LiveStream, MessageThatIsNone_IsAFault) {
@@ -338,6 +357,31 @@ TEST(FramePlayer, ServerThatStops_IsWaitedFor) {
     ASSERT_TRUE(frame) << frame.error().message;
     EXPECT_EQ(frame->has_value(), is_frame);
   }
+}
+
+TEST(FramePlayer, ServerThatFallsSilent_IsWaitedFor) {
+  int connections = 0;
+  const ScriptedServer server(
+      "semblante.v1",
+      [&connections](Socket& socket) {
+        FrameEncoder encoder;
+        say(socket, encoder, named_header());
+        say(socket, encoder, Keyframe{1, 100, with_jaw(0)});
+        if (++connections == 2) return say(socket, encoder, End{EndReason::finished});
+        beast::flat_buffer pings;
+        for (beast::error_code problem; !problem;) socket.read(pings, problem);
+      },
+      2);
+  LiveStreamOptions options;
+  options.silence_limit = std::chrono::milliseconds(200);
+  LiveStream stream(server.url(), "s", options);
+  FramePlayer player(stream, patience);
+  for (const bool is_frame : {true, false}) {  // the second connection has the same frame, which comes once
+    const auto frame = player.next_received();
+    ASSERT_TRUE(frame) << frame.error().message;
+    EXPECT_EQ(frame->has_value(), is_frame);
+  }
+  EXPECT_EQ(stream.connections(), 2U);
 }
 
 TEST(FramePlayer, NobodyThere_IsSaidAtOnce) {
