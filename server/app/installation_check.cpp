@@ -23,6 +23,8 @@
 #include "server/app/private_files.h"
 #include "server/cli/command_failure.h"
 #include "server/jobs/worker_process.h"
+#include "server/store/data_files.h"
+#include "server/store/database_snapshot.h"
 #include "server/store/disk_space.h"
 #include "server/upkeep/data_lock.h"
 
@@ -90,6 +92,21 @@ void check_owner(InstallationFindings& findings, const fs::path& data) {
                         "chmod 700 " + data.string()});
 }
 
+void check_database(InstallationFindings& findings, const fs::path& data) {
+  const auto file = data / store::database_file_name;
+  std::error_code error;
+  if (!fs::exists(fs::symlink_status(file, error))) return;  // the first start makes it
+  const auto opens = store::check_opens(file);
+  if (opens) {
+    findings.push_back({Level::ok, "database", "this version reads it", ""});
+    return;
+  }
+  findings.push_back({Level::error, "database", file.string() + ": " + opens.error().message,
+                      opens.error().code == ErrorCode::unsupported
+                          ? "Use the later version again, or restore a backup that this one has made."
+                          : "semblante check tells more; put the right file in its place, or restore a backup."});
+}
+
 bool check_data_folder(InstallationFindings& findings, const ServeOptions& options) {
   std::error_code error;
   const auto exists = fs::exists(options.data, error);
@@ -110,6 +127,7 @@ bool check_data_folder(InstallationFindings& findings, const ServeOptions& optio
                                                           : " is writable"),
                         ""});
   if (exists) check_owner(findings, folder);
+  if (exists) check_database(findings, folder);
   check_space(findings, folder, options.disk_reserve);
   return locked;
 }

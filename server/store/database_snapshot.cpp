@@ -139,6 +139,17 @@ Result<DatabaseSnapshot> read_database(const fs::path& file, Reading how) {
   });
 }
 
+Status check_opens(const fs::path& file) {
+  if (!is_real_file(file)) return not_there(file);
+  return reading<Unit>(file, [&]() -> Result<Unit> {
+    const auto db = open_to_read(file);
+    db->execute("BEGIN");  // the version and the tables are of one moment
+    auto checked = check_schema(*db);
+    if (checked) return Unit{};
+    return Error{checked.error().code, file.string(), checked.error().message};
+  });
+}
+
 Status copy_database(const fs::path& from, const fs::path& to) {
   if (!is_real_file(from)) return not_there(from);
   const auto copied = reading<Unit>(from, [&]() -> Result<Unit> {

@@ -38,6 +38,10 @@ enum class Reading {
 /// with SQLite's words, unsupported (another version of the schema).
 Result<DatabaseSnapshot> read_database(const std::filesystem::path& file, Reading reading);
 
+/// Whether a server of this version would open the database; changes nothing. Errors: missing, malformed (damaged, or
+/// of another program), io, unsupported (a later version of the schema).
+Status check_opens(const std::filesystem::path& file);
+
 /// Copies a database as it is at one moment, also while a server writes to it (SQLite's online backup), and makes the
 /// copy durable. `to` must not exist. Errors as read_database(). Throws StoreError when `to` cannot be written.
 Status copy_database(const std::filesystem::path& from, const std::filesystem::path& to);

@@ -169,6 +169,14 @@ bool is_ours(Database& db, int version) {
   return tables.step() && (version == 0 ? tables.integer(0) == 0 : tables.integer(1) == 1);
 }
 
+Status check_version(Database& db, int version) {
+  if (version < 0 || !is_ours(db, version))
+    return Error{ErrorCode::malformed, "", "it is the database of another program"};
+  if (version > schema_version)
+    return Error{ErrorCode::unsupported, "", "the data folder was written by a later version of this program"};
+  return Unit{};
+}
+
 }  // namespace
 
 int current_schema_version() { return schema_version; }
@@ -178,17 +186,17 @@ int schema_version_of(Database& db) {
   return statement.step() ? static_cast<int>(statement.integer(0)) : 0;
 }
 
+Status check_schema(Database& db) { return check_version(db, schema_version_of(db)); }
+
 Status bring_up_to_date(Database& db) {
-  const Error foreign{ErrorCode::malformed, "", "it is the database of another program"};
-  const int found = schema_version_of(db);
-  if (found > 0 && !is_ours(db, found)) return foreign;
-  if (found > schema_version)
-    return Error{ErrorCode::unsupported, "", "the data folder was written by a later version of this program"};
-  if (found == schema_version) return Unit{};
+  if (const int found = schema_version_of(db); found > 0) {
+    auto checked = check_version(db, found);
+    if (!checked || found == schema_version) return checked;
+  }
   Transaction transaction(db);
   // Read again: another process may have made the tables before the transaction began.
   const int version = schema_version_of(db);
-  if (!is_ours(db, version)) return foreign;
+  if (auto checked = check_version(db, version); !checked) return checked;
   for (int step = version; step < schema_version; ++step) db.execute(migrations[static_cast<std::size_t>(step)]);
   set_schema_version(db);
   transaction.commit();

@@ -7,8 +7,10 @@
 
 namespace semblante::store {
 
-/// Migrates a file of any earlier version, or an empty one, to the tables of this version. Errors: `unsupported` when a
-/// later version wrote it.
+/// Whether bring_up_to_date() would take the file, as of the transaction in which it is called.
+Status check_schema(Database& db);
+/// Migrates a file of any earlier version, or an empty one, to the tables of this version. Errors: `unsupported` (a
+/// later version wrote it), `malformed` (another program did).
 Status bring_up_to_date(Database& db);
 /// The version of the tables that this program makes.
 int current_schema_version();

@@ -51,6 +51,14 @@ class SqliteStore final : private SqliteConnection,
         SqliteOwnerStore(connection()),
         SqliteDatabaseFacts(connection()) {
     if (locking == Locking::exclusive) db.execute("PRAGMA locking_mode=EXCLUSIVE");
+  }
+
+  Status prepare() {
+    // First: a file of another program or of a later version is not changed, not even to another kind of journal.
+    db.execute("BEGIN");
+    auto checked = check_schema(db);
+    db.execute("COMMIT");
+    if (!checked) return checked;
     db.execute("PRAGMA journal_mode=WAL");
     // The file of the write-ahead log is kept, empty, at a shutdown, so that a start on a full disk does not need a new
     // one. The size limit empties it: a log with content would be applied to any database that replaces this one.
@@ -60,9 +68,8 @@ class SqliteStore final : private SqliteConnection,
     db.execute("PRAGMA temp_store=MEMORY");
     db.execute("PRAGMA synchronous=FULL");
     db.execute("PRAGMA foreign_keys=ON");
+    return bring_up_to_date(db);
   }
-
-  Status prepare() { return bring_up_to_date(db); }
 
  private:
   SqliteConnection& connection() { return *this; }

@@ -1,8 +1,11 @@
 """`semblante doctor`: each fault of an installation is told with a remedy; a sound one has none."""
 
+import contextlib
 import os
 import re
+import shutil
 import socket
+import sqlite3
 import unittest
 
 import support
@@ -75,6 +78,33 @@ class Doctor(unittest.TestCase):
         if run(*command, PROGRAM, "--version").returncode != 0:
             self.skipTest("other accounts cannot reach the program")
         return command
+
+    def test_databases_that_the_server_refuses(self):
+        data = self.folder / "data"
+        with support.Server(data):
+            pass
+        self.assertEqual(self.levels(self.doctor(), "database"), {"ok"})
+        later = self.folder / "later"
+        shutil.copytree(data, later)
+        with contextlib.closing(sqlite3.connect(later / "semblante.sqlite")) as database:
+            database.execute("PRAGMA user_version = 1000")
+        foreign = self.folder / "foreign"
+        foreign.mkdir(mode=0o700)
+        with contextlib.closing(sqlite3.connect(foreign / "semblante.sqlite")) as database:
+            database.execute("CREATE TABLE songs(name)")
+        damaged = self.folder / "damaged"
+        damaged.mkdir(mode=0o700)
+        (damaged / "semblante.sqlite").write_text("x" * 10000)
+        for folder, word in ((later, "a later version"), (foreign, "another program"), (damaged, "not a database")):
+            with self.subTest(folder.name):
+                before = (folder / "semblante.sqlite").read_bytes()
+                [(level, message)] = self.doctor(data=folder)["database"]
+                self.assertEqual(level, "error")
+                self.assertIn(word, message)
+                refused = run(PROGRAM, "serve", "--data", folder, "--port", 0, "--web-root", "")
+                self.assertNotEqual(refused.returncode, 0)
+                self.assertIn(word, refused.stderr)
+                self.assertEqual((folder / "semblante.sqlite").read_bytes(), before, "nothing is changed")
 
     def test_data_folder_open_to_others(self):
         (self.folder / "data").mkdir()
