@@ -114,14 +114,16 @@ Status write_all(const std::vector<client::DisplayedFrame>& frames, client::Face
   return output.finish();
 }
 
-/// Writes the stream as the JSON accepted for publishing: the first frame is at 0.
+/// Writes the stream as the JSON accepted for publishing: the first frame is at 0. What came before an error is kept.
 Status record(client::LiveStream& stream, client::FramePlayer& player, const Arguments& arguments) {
   std::vector<TimedValues> frames;
+  std::optional<Error> fault;
   double begin = 0;
   while (frames.size() < arguments.frames) {
-    const auto frame = player.next_received();
+    auto frame = player.next_received();
     if (!frame) {
-      return frame.error();
+      fault = std::move(frame).error();
+      break;
     }
     if (!*frame) {
       break;  // keeps the frames until the end of the stream
@@ -133,13 +135,13 @@ Status record(client::LiveStream& stream, client::FramePlayer& player, const Arg
   }
   stream.close();
   if (frames.empty()) {
-    return Error{ErrorCode::empty, arguments.stream, "the stream ended before its first frame"};
+    return fault ? *fault : Error{ErrorCode::empty, arguments.stream, "the stream ended before its first frame"};
   }
   if (auto written = write_file(arguments.record, encode_json_values(frames)); !written) {
     return written;
   }
   std::cout << frames.size() << " frames of " << arguments.stream << " in " << arguments.record.string() << '\n';
-  return Unit{};
+  return fault ? Status(*fault) : Unit{};
 }
 
 Status subscribe(const client::ServerAddress& server, const Arguments& arguments) {

@@ -12,6 +12,7 @@
 #include "clients/native/client/face_package.h"
 #include "clients/native/client/frame_player.h"
 #include "clients/native/tools/files.h"
+#include "protocol/cpp/json_codec.h"
 #include "protocol/cpp/rig_document.h"
 #include "protocol/cpp/weights_format.h"
 #include "tests/integration/client/sample_server.h"
@@ -255,6 +256,21 @@ TEST(NativeClient, PublishingADocumentOfCues_SaysWhichFileAndWhatMakesFramesOfIt
   EXPECT_NE(said.find(cues.string() + ": /frames: "), std::string::npos) << said;
   EXPECT_NE(said.find("semblante convert"), std::string::npos) << said;
   EXPECT_NE(publisher.wait(patience), 0);
+}
+
+TEST(NativeClient, RecordingOfAStreamThatStops_KeepsWhatCame) {
+  const SampleServer server;
+  server.create_stream("brief");
+  server.post_frames("brief", R"([{"faps":{"3":40}}])");
+  const std::filesystem::path record = server.folder() / "brief.json";
+  ChildProcess process({SEMBLANTE_CLIENT, server.url(), "--stream", "brief", "--frames", "1000", "--timeout", "2",
+                        "--record", record.string()});
+  EXPECT_EQ(process.wait(patience), 1);
+  const auto bytes = tools::read_file(record);
+  ASSERT_TRUE(bytes) << bytes.error().message;
+  const auto frames = decode_json_frames({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
+  ASSERT_TRUE(frames) << frames.error().message;
+  EXPECT_FALSE(frames->empty());
 }
 
 TEST(NativeClient, ALevelOfDetail_AnimatesLikeTheFullMesh) {
