@@ -114,6 +114,7 @@ static unsafe class Native {
     [DllImport(Library)] public static extern uint semblante_head_vertex_count(IntPtr head);
     [DllImport(Library)] public static extern uint* semblante_head_triangles(IntPtr head, out uint count);
     [DllImport(Library)] public static extern float* semblante_head_uvs(IntPtr head);
+    [DllImport(Library)] public static extern byte* semblante_head_colors(IntPtr head);
     [DllImport(Library)] public static extern int semblante_head_set_frame(IntPtr head, ref Frame frame);
     [DllImport(Library)] public static extern int semblante_head_positions(IntPtr head, float* positions, UIntPtr capacity);
     [DllImport(Library)] public static extern int semblante_head_normals(IntPtr head, float* positions, float* normals, UIntPtr capacity);

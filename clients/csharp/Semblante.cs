@@ -100,6 +100,16 @@ public sealed unsafe class Head : Owner {
         return copy;
     }
 
+    /// 3 bytes of each vertex: red, green, blue, sRGB; they multiply material and image as linear light. Null, which is white, if
+    /// the mesh has none.
+    public byte[] Colors() {
+        byte* colors = Native.semblante_head_colors(Handle);
+        if (colors == null) return null;
+        var copy = new byte[3 * VertexCount];
+        Marshal.Copy((IntPtr)colors, copy, 0, copy.Length);
+        return copy;
+    }
+
     public void SetFrame(Frame frame) { Check(Native.semblante_head_set_frame(Handle, ref frame)); }
 
     /// The vertices of the current pose: 3 floats each, model units, right-handed (Unity: negate x and swap two corners of each

@@ -12,6 +12,7 @@ var native := GDNative.new()
 var socket: WebSocketClient = null
 var triangles := PoolIntArray()
 var positions := PoolVector3Array()
+var colors := PoolColorArray()
 # Display frames in which the face had a new pose.
 var shown := 0
 
@@ -42,6 +43,9 @@ func _ready() -> void:
 		push_error("the package was refused: result %d" % -vertices)
 		return
 	triangles = run("face_triangles")
+	colors = run("face_colors")
+	if colors.size() > 0:
+		material_override = colored_material()
 	mesh = ArrayMesh.new()
 	show_positions()
 	run("stream_tell", [START, now()])
@@ -99,12 +103,21 @@ func _process(delta: float) -> void:
 		shown += 1
 
 
+func colored_material() -> SpatialMaterial:
+	var colored := SpatialMaterial.new()
+	colored.vertex_color_use_as_albedo = true
+	colored.vertex_color_is_srgb = true
+	return colored
+
+
 func show_positions() -> void:
 	positions = run("face_positions")
 	var arrays := []
 	arrays.resize(Mesh.ARRAY_MAX)
 	arrays[Mesh.ARRAY_VERTEX] = positions
 	arrays[Mesh.ARRAY_INDEX] = triangles
+	if colors.size() > 0:
+		arrays[Mesh.ARRAY_COLOR] = colors
 	if mesh.get_surface_count() > 0:
 		mesh.surface_remove(0)
 	mesh.add_surface_from_arrays(Mesh.PRIMITIVE_TRIANGLES, arrays)

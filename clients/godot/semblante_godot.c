@@ -46,6 +46,7 @@ static const core_api* core;
 #define variant_bytes CALL(530, void, (variant*, const array*))
 #define variant_ints CALL(531, void, (variant*, const array*))
 #define variant_vectors CALL(535, void, (variant*, const array*))
+#define variant_colors CALL(536, void, (variant*, const array*))
 #define as_real CALL(540, double, (const variant*))
 #define as_bytes CALL(557, array, (const variant*))
 #define variant_free CALL(570, void, (variant*))
@@ -61,6 +62,7 @@ typedef struct pool {
 static const pool bytes_pool = {155, 164, 166, 296, 298, 170};
 static const pool ints_pool = {171, 180, 182, 300, 302, 186};
 static const pool vectors_pool = {235, 244, 246, 316, 318, 250};
+static const pool colors_pool = {251, 260, 262, 320, 322, 266};
 
 /* A pool array of `count` elements that are `bytes` at `from` together. */
 static array pool_of(const pool* kind, int count, const void* from, size_t bytes) {
@@ -167,6 +169,25 @@ EXPORT variant face_triangles(array* arguments) {
   array triangles = pool_of(&ints_pool, (int)(3 * count), corners, 3 * (size_t)count * sizeof *corners);
   variant_ints(&made, &triangles);
   CALL(ints_pool.destroy, void, (array*))(&triangles);
+  return made;
+}
+
+/* () -> the colours of the vertices, sRGB; empty: they have none. */
+EXPORT variant face_colors(array* arguments) {
+  (void)arguments;
+  variant made;
+  const uint8_t* from = head != NULL ? semblante_head_colors(head) : NULL;
+  const uint32_t count = from != NULL ? semblante_head_vertex_count(head) : 0;
+  array colors = pool_of(&colors_pool, (int)count, NULL, 0);
+  void* const access = CALL(colors_pool.write, void*, (array*))(&colors);
+  float* to = CALL(colors_pool.at, void*, (const void*))(access); /* red, green, blue, opacity */
+  for (uint32_t i = 0; i < count; ++i) {
+    for (uint32_t k = 0; k < 3; ++k) to[4 * i + k] = (float)from[3 * i + k] / 255.0f;
+    to[4 * i + 3] = 1.0f;
+  }
+  CALL(colors_pool.end, void, (void*))(access);
+  variant_colors(&made, &colors);
+  CALL(colors_pool.destroy, void, (array*))(&colors);
   return made;
 }
 

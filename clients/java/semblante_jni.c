@@ -112,6 +112,15 @@ NATIVE(jfloatArray, headUvs)(JNIEnv* env, jclass type, jlong head) {
   return uvs;
 }
 
+NATIVE(jbyteArray, headColors)(JNIEnv* env, jclass type, jlong head) {
+  (void)type;
+  const uint8_t* from = semblante_head_colors(HANDLE(semblante_head, head));
+  const jsize count = (jsize)(3 * semblante_head_vertex_count(HANDLE(semblante_head, head)));
+  jbyteArray colors = from == NULL ? NULL : (*env)->NewByteArray(env, count);
+  if (colors != NULL) (*env)->SetByteArrayRegion(env, colors, 0, count, (const jbyte*)from);
+  return colors;
+}
+
 NATIVE(void, headSetFrame)(JNIEnv* env, jclass type, jlong head, jfloatArray numbers) {
   (void)type;
   float values[FRAME];

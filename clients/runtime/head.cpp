@@ -59,6 +59,10 @@ const float* semblante_head_uvs(const semblante_head* head) {
   return head == nullptr || head->uvs.empty() ? nullptr : head->uvs.data();
 }
 
+const uint8_t* semblante_head_colors(const semblante_head* head) {
+  return head == nullptr || head->colors.empty() ? nullptr : head->colors.data();
+}
+
 const semblante_pose* semblante_head_pose(const semblante_head* head) {
   return head == nullptr ? nullptr : &head->pose;
 }

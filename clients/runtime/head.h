@@ -49,7 +49,8 @@ struct ShownPose {
 /// Owned by the caller through the opaque handle. `rig` and `face` point into the vectors beside them.
 struct semblante_head {
   std::vector<float> rest;
-  std::vector<float> uvs;  ///< #V by 2 or empty
+  std::vector<float> uvs;            ///< #V by 2 or empty
+  std::vector<std::uint8_t> colors;  ///< #V by 3 or empty
   semblante::KernelRig kernel;
   semblante::InfluenceTable table;
   std::vector<std::uint8_t> points;

@@ -195,6 +195,7 @@ semblante_result create(const semblante_package& package, const semblante_head_o
   made = std::make_unique<semblante_head>();
   made->rest.assign(mesh.positions.begin(), mesh.positions.end());
   made->uvs.assign(mesh.uvs.begin(), mesh.uvs.end());
+  made->colors = std::move(decoded.colors);
   made->table = *std::move(table);
   fill_rig(*made, *document, options);
   fill_face(*made, computes_vertices);

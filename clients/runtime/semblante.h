@@ -139,6 +139,9 @@ const semblante_face* semblante_head_face(const semblante_head* head);
 const uint32_t* semblante_head_triangles(const semblante_head* head, uint32_t* triangle_count);
 /* #V by 2, origin top left; null if mesh_drc was not given or has none. */
 const float* semblante_head_uvs(const semblante_head* head);
+/* #V by 3 bytes: red, green, blue of the vertices, sRGB; they multiply material and image as linear light
+ * (protocol/SPEC.md, section 1.2). Null, which is white: mesh_drc was not given or has none. */
+const uint8_t* semblante_head_colors(const semblante_head* head);
 /* The current pose; the pointer is valid until the head is destroyed, its content changes with the pose. */
 const semblante_pose* semblante_head_pose(const semblante_head* head);
 

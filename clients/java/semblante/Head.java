@@ -27,6 +27,14 @@ public final class Head extends Owner {
         return Native.headUvs(handle());
     }
 
+    /**
+     * 3 bytes of each vertex: red, green, blue, sRGB, 0..255 by {@code & 0xff}; they multiply material and image as linear
+     * light. Null, which is white, if the mesh has none.
+     */
+    public byte[] colors() {
+        return Native.headColors(handle());
+    }
+
     public void setFrame(Frame frame) {
         Native.headSetFrame(handle(), frame.numbers);
     }

@@ -14,6 +14,7 @@ final class Native {
     static native int headVertexCount(long head);
     static native int[] headTriangles(long head);
     static native float[] headUvs(long head);
+    static native byte[] headColors(long head);
     static native void headSetFrame(long head, float[] numbers);
     static native void headPositions(long head, float[] positions);
     static native void headNormals(long head, float[] positions, float[] normals);

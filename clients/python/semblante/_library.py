@@ -56,6 +56,7 @@ functions: Dict[str, Tuple[Any, List[Any]]] = {  # name: (result, arguments)
     "semblante_head_face": (POINTER(Face), [_handle]),
     "semblante_head_triangles": (c_void_p, [_handle, _count]),
     "semblante_head_uvs": (c_void_p, [_handle]),
+    "semblante_head_colors": (c_void_p, [_handle]),
     "semblante_head_pose": (POINTER(Pose), [_handle]),
     "semblante_head_set_viseme_share": (_result, [_handle, c_float]),
     "semblante_head_set_frame": (_result, [_handle, _frame]),

@@ -48,6 +48,13 @@ class Head(Owner):
         return arrays.view(address, "f", (self.vertex_count, 2), self) if address else None
 
     @property
+    def colors(self) -> Optional[Any]:
+        """#V by 3 bytes: red, green, blue, sRGB; they multiply material and image as linear light. None, which is white, if
+        the mesh has none."""
+        address = library.semblante_head_colors(self._handle)
+        return arrays.view(address, "B", (self.vertex_count, 3), self) if address else None
+
+    @property
     def neutral(self) -> Any:
         """#V by 3: the vertices of the neutral face, model units."""
         face = library.semblante_head_face(self._handle).contents

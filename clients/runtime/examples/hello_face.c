@@ -9,13 +9,19 @@ static int write_obj(const semblante_head* head, const char* path) {
   const uint32_t vertices = semblante_head_vertex_count(head);
   uint32_t triangles = 0, i;
   const uint32_t* corners = semblante_head_triangles(head, &triangles);
+  const uint8_t* colors = semblante_head_colors(head);
   float* positions = (float*)malloc((size_t)vertices * 3 * sizeof(float));
   FILE* file = fopen(path, "w");
   int is_written = positions != NULL && file != NULL &&
                    semblante_head_positions(head, positions, (size_t)vertices * 3) == SEMBLANTE_OK;
   for (i = 0; is_written && i < vertices; ++i) {
     const float* p = positions + (size_t)i * 3;
-    fprintf(file, "v %.6g %.6g %.6g\n", p[0], p[1], p[2]);
+    fprintf(file, "v %.6g %.6g %.6g", p[0], p[1], p[2]);
+    if (colors != NULL) {
+      const uint8_t* c = colors + (size_t)i * 3;
+      fprintf(file, " %.6g %.6g %.6g", c[0] / 255.0, c[1] / 255.0, c[2] / 255.0);
+    }
+    fprintf(file, "\n");
   }
   for (i = 0; is_written && i < triangles; ++i) {
     const uint32_t* c = corners + (size_t)i * 3;

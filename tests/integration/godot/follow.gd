@@ -22,6 +22,13 @@ func _idle(_delta: float) -> bool:
 	for i in first.size():
 		if first[i] != face.positions[i]:
 			moved += 1
-	print("vertices ", first.size(), " corners ", face.triangles.size(), " shown ", face.shown, " moved ", moved)
+	# What the engine would draw.
+	var drawn: PoolColorArray = face.mesh.surface_get_arrays(0)[Mesh.ARRAY_COLOR]
+	var reddest := Color(0, 0, 0)
+	for color in drawn:
+		if color.r > reddest.r:
+			reddest = color
+	print("vertices ", first.size(), " corners ", face.triangles.size(), " shown ", face.shown, " moved ", moved, " colors ", drawn.size(),
+			" reddest ", reddest)
 	quit()
 	return true

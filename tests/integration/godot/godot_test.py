@@ -22,7 +22,7 @@ with tempfile.TemporaryDirectory() as name:
     folder = pathlib.Path(name)
     project = folder / "project"
     shutil.copytree(TOP / "clients/godot", project)
-    shutil.copytree(TOP / "protocol/vectors/face", project / "package")
+    shutil.copytree(TOP / "protocol/vectors/face_colored", project / "package")
     shutil.copy(pathlib.Path(__file__).with_name("follow.gd"), project)
     installed = folder / "include/semblante"  # the header's place, as programs name it
     installed.mkdir(parents=True)
@@ -41,10 +41,11 @@ with tempfile.TemporaryDirectory() as name:
     finally:
         server.terminate()
         server.wait(PATIENCE)
-    words = re.search(r"vertices (\d+) corners (\d+) shown (\d+) moved (\d+)", said.stdout)
+    words = re.search(r"vertices (\d+) corners (\d+) shown (\d+) moved (\d+) colors (\d+) reddest ([\d.,]+)", said.stdout)
     assert words, said.stdout + said.stderr
-    vertices, corners, shown, moved = map(int, words.groups())
+    vertices, corners, shown, moved, colors = map(int, words.groups()[:5])
     assert (vertices, corners % 3) == (196, 0) and corners > 0 and shown >= 30 and moved > vertices // 4, words.group()
+    assert (colors, words.group(6)) == (196, "1,0.462745,0.482353,1"), words.group()
     # Errors of the script, or that it reports; without a window the engine has some of its own.
     assert not re.search("SCRIPT ERROR|USER ERROR|face.gd", said.stdout + said.stderr), said.stdout + said.stderr
     print(words.group())

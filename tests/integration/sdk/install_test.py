@@ -14,6 +14,7 @@ BUILD = pathlib.Path(os.environ.get("SEMBLANTE_BUILD", TOP / "build")).resolve()
 HERE = TOP / "tests/integration/sdk"
 EXAMPLES = TOP / "clients/runtime/examples"
 FACE = TOP / "protocol/vectors/face"
+COLORED = TOP / "protocol/vectors/face_colored"
 STRICT = ["-Wall", "-Wextra", "-Werror", "-pedantic"]
 # What the whole tree wants; the library alone may ask for none of it.
 FOREIGN = ("Boost", "CLI11", "Eigen3", "GTest", "OpenMesh", "OpenSSL", "PkgConfig", "ZLIB", "meshoptimizer", "nlohmann_json")
@@ -71,6 +72,23 @@ class Installed(unittest.TestCase):
         self.assertGreater(len(corners), 0)
         self.assertTrue(all(1 <= n <= 196 for n in corners))
         return out.read_bytes()
+
+    def test_the_colors_of_a_scan_are_written_by_the_examples(self):
+        program = self.folder / "hello-colored"
+        run("cc", "-std=c99", *STRICT, EXAMPLES / "hello_face.c", *run("pkg-config", "--cflags", "--libs", "semblante",
+            env=self.packages).split(), f"-Wl,-rpath,{self.library_folder}", "-o", program)
+        package = {**os.environ, "PYTHONPATH": str(TOP / "clients/python"), "PYTHONDONTWRITEBYTECODE": "1",
+                   "SEMBLANTE_LIBRARY": str(self.library_folder / "libsemblante.so")}
+        python = [sys.executable, TOP / "clients/python/examples/hello_face.py"]
+        written = []
+        for name, command, environment in (("c", [program], None), ("python", python, package)):
+            out = self.folder / f"colored-{name}.obj"
+            run(*command, COLORED, out, env=environment)
+            places = [line.split()[1:] for line in out.read_text().splitlines() if line.startswith("v ")]
+            written.append([place[3:] for place in places])
+        self.assertEqual(written[0], written[1])
+        channels = [float(channel) for color in written[0] for channel in color]
+        self.assertEqual((len(channels), min(channels), max(channels)), (3 * 196, 0, 1))
 
     def test_the_files_are_where_they_are_looked_for(self):
         files = {str(path.relative_to(self.prefix)) for path in self.prefix.rglob("*") if path.is_file()}

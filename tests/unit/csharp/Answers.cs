@@ -43,6 +43,8 @@ static unsafe class Answers {
                 frame.Fap[int.Parse(words[1])] = (float)Number(words[2]);
                 head.SetFrame(frame);
                 return string.Join(" ", head.Positions().Select(x => Number(x)));
+            case "colors":
+                return head.Colors() == null ? "none" : string.Join(" ", head.Colors());
             case "performance":
                 performance = new Performance(File.ReadAllBytes(words[1]));
                 return Number(performance.Duration);

@@ -53,6 +53,15 @@ class GoldenAnswers:
         moved = [x for row in head.positions().tolist() for x in row]
         self.assertEqual(self.numbers("fap", 3, 200), moved)
 
+    def test_the_colors_of_a_head_are_those_of_python(self):
+        import semblante
+        self.numbers("head", VECTORS / "face")
+        self.assertEqual(self.ask("colors"), "none")
+        folder = VECTORS / "face_colored"
+        self.numbers("head", folder)
+        head = semblante.Head(*((folder / name).read_bytes() for name in ("mesh.drc", "weights", "rig.json")))
+        self.assertEqual(self.numbers("colors"), [channel for color in head.colors.tolist() for channel in color])
+
     def test_a_stream_is_read_and_played(self):
         self.numbers("head", VECTORS / "face")
         self.assertTrue(self.ask("stream").startswith("0101"))  # hello, version 1

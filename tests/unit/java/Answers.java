@@ -87,6 +87,11 @@ final class Answers {
                 StringBuilder coordinates = new StringBuilder();
                 for (float x : positions) coordinates.append((double) x).append(' ');
                 return coordinates.toString().trim();
+            case "colors":
+                if (head.colors() == null) return "none";
+                StringBuilder channels = new StringBuilder();
+                for (byte channel : head.colors()) channels.append(channel & 0xff).append(' ');
+                return channels.toString().trim();
             case "normals":
                 float[] at = new float[3 * head.vertexCount];
                 float[] normals = new float[at.length];

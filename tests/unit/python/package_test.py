@@ -30,8 +30,14 @@ from support import Server, eventually, temporary_folder  # noqa: E402
 VECTORS = TOP / "protocol/vectors"
 
 
-def golden_head():
-    return semblante.Head(*((VECTORS / "face" / name).read_bytes() for name in ("mesh.drc", "weights", "rig.json")))
+def golden_head(folder="face"):
+    return semblante.Head(*((VECTORS / folder / name).read_bytes() for name in ("mesh.drc", "weights", "rig.json")))
+
+
+def colors_of_places(positions):
+    """The colours of face_colored: see protocol/vectors/README.md."""
+    axes = [(min(axis), max(axis)) for axis in zip(*positions)]
+    return [[round(255 * (x - low) / (high - low)) for x, (low, high) in zip(place, axes)] for place in positions]
 
 
 def golden_frame(values):
@@ -134,6 +140,16 @@ class Heads(unittest.TestCase):
         self.assertNotEqual(head.positions().tolist(), head.neutral.tolist())
         head.set_frame(semblante.frame())
         self.assertEqual(head.positions().tolist(), head.neutral.tolist())
+
+    def test_colors_are_a_view_of_those_of_the_mesh(self):
+        self.assertIsNone(golden_head().colors)
+        head = golden_head("face_colored")
+        colors = head.colors
+        self.assertEqual(colors.tolist(), colors_of_places(head.neutral.tolist()))
+        self.assertEqual(ctypes.addressof(ctypes.c_uint8.from_buffer(colors)), semblante.head.library.semblante_head_colors(head._handle))
+        del head
+        gc.collect()
+        self.assertEqual(colors.tolist(), golden_head("face_colored").colors.tolist())
 
     def test_arrays_are_views_that_keep_their_head(self):
         neutral = golden_head().neutral  # the head itself is gone

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <string>
@@ -105,6 +107,56 @@ TEST(HeadCreate, InvalidInputs_EachIsNamed) {
     EXPECT_EQ(semblante_head_create(&package, &options, &head, &error), SEMBLANTE_INVALID_ARGUMENT);
     EXPECT_STREQ(error.where, "options.viseme_share");
   }
+}
+
+std::vector<std::uint8_t> bytes_of(const std::string& file) {
+  std::ifstream stream(SEMBLANTE_SOURCE_DIR "/protocol/vectors/" + file, std::ios::binary);
+  EXPECT_TRUE(stream) << file;
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+/// A package of protocol/vectors.
+OwnedHead golden_head(const std::string& folder) {
+  const auto mesh = bytes_of(folder + "/mesh.drc");
+  const auto weights = bytes_of(folder + "/weights");
+  const auto rig = bytes_of(folder + "/rig.json");
+  semblante_package package{};
+  package.size = sizeof(package);
+  package.mesh_drc = mesh.data();
+  package.mesh_drc_size = mesh.size();
+  package.weights = weights.data();
+  package.weights_size = weights.size();
+  package.rig_json = reinterpret_cast<const char*>(rig.data());
+  package.rig_json_size = rig.size();
+  semblante_head* head = nullptr;
+  semblante_error error{};
+  EXPECT_EQ(semblante_head_create(&package, nullptr, &head, &error), SEMBLANTE_OK) << error.where << error.message;
+  return OwnedHead(head);
+}
+
+TEST(Head, Colors_AreThoseOfTheMesh) {
+  const OwnedHead head = golden_head("face_colored");
+  const std::uint8_t* colors = semblante_head_colors(head.get());
+  ASSERT_NE(colors, nullptr);
+  const float* rest = semblante_head_face(head.get())->rest;
+  const std::size_t vertices = semblante_head_vertex_count(head.get());
+  for (std::size_t axis = 0; axis < 3; ++axis) {  // of this mesh a colour is the place in the box
+    float low = rest[axis];
+    float high = low;
+    for (std::size_t v = 0; v < vertices; ++v) {
+      low = std::min(low, rest[3 * v + axis]);
+      high = std::max(high, rest[3 * v + axis]);
+    }
+    for (std::size_t v = 0; v < vertices; ++v) {
+      ASSERT_NEAR(colors[3 * v + axis], 255.0F * (rest[3 * v + axis] - low) / (high - low), 0.501F) << v;
+    }
+  }
+}
+
+TEST(Head, WithoutColors_GivesNull) {
+  EXPECT_EQ(semblante_head_colors(golden_head("face").get()), nullptr);
+  EXPECT_EQ(semblante_head_colors(make(SmallPackage()).get()), nullptr) << "a mesh that the caller decoded";
+  EXPECT_EQ(semblante_head_colors(nullptr), nullptr);
 }
 
 TEST(Head, NeutralPose_GivesRestBitForBit) {
