@@ -344,6 +344,65 @@ test('Package_ElementWithTheWordFalse_IsOffAndAsWithoutTheAttribute', async () =
   });
 });
 
+test('Package_ElementWhoseSoundVoiceOrTokenChanges_KeepsItsFace', async () => {
+  writeFileSync(
+    join(project, 'switch.html'),
+    `<!doctype html><semblante-face stream="demo"></semblante-face>
+<script type="module" src="node_modules/semblante/dist/element.js"></script>`,
+  );
+  type Switched = HTMLElement & { sound: boolean; voice: boolean; token: string; state: string; canvas: Element | null; states: string[] };
+  await moves('/switch.html', server.url, async (page) => {
+    const parts: string[] = [];
+    const tokens: (string | undefined)[] = [];
+    const hellos: Buffer[] = [];
+    page.on('request', (request) => {
+      if (/\/(mesh\.drc|weights|rig\.json)/.test(request.url())) parts.push(request.url());
+      if (request.url().endsWith('/v1/streams/demo')) tokens.push(request.headers()['authorization']);
+    });
+    page.on('websocket', (socket) => {
+      let isFirst = true;
+      socket.on('framesent', ({ payload }) => {
+        if (isFirst) hellos.push(Buffer.from(payload));
+        isFirst = false;
+      });
+    });
+    await page.evaluate(() => {
+      const face = document.querySelector<Switched>('semblante-face')!;
+      face.canvas = face.shadowRoot!.querySelector('canvas');
+      face.states = [];
+      face.addEventListener('statechange', (event) => face.states.push((event as CustomEvent<{ state: string }>).detail.state));
+    });
+    const put = (change: { sound?: boolean; voice?: boolean; token?: string }): Promise<void> =>
+      page.evaluate((change) => void Object.assign(document.querySelector<Switched>('semblante-face')!, change), change);
+    const connected = async (count: number): Promise<void> => expect.poll(() => hellos.length, { timeout: patience }).toBe(count);
+
+    await put({ voice: true });
+    await put({ voice: false });
+    await put({ sound: true });
+    await connected(1); // the voice needs no connection
+    await page.getByRole('button', { name: 'Sound on' }).click();
+    await page.getByRole('button', { name: 'Sound off' }).waitFor();
+    await put({ token: 'abc' });
+    await connected(2);
+    await page.getByRole('button', { name: 'Sound off' }).waitFor(); // still heard
+    await put({ token: 'abc' }); // no change
+    await put({ sound: false });
+    await connected(3);
+    await expect.poll(() => page.getByRole('button', { name: /^Sound/ }).count(), { timeout: patience }).toBe(0);
+    expect(tokens).toEqual(['Bearer abc']);
+    expect(hellos[0]).toEqual(hellos[1]);
+    expect(hellos[2]).not.toEqual(hellos[1]);
+    expect(parts).toEqual([]);
+    await page.evaluate(async () => {
+      const face = document.querySelector<Switched>('semblante-face')!;
+      if (face.shadowRoot!.querySelector('canvas') !== face.canvas) throw new Error('another picture');
+      if (face.states.some((state) => state !== 'playing')) throw new Error(face.states.join());
+      const poses = (): string => Array.from((face as unknown as { show: { kernel: { poses: { featurePoints: Float32Array }[] } } }).show.kernel.poses[0]!.featurePoints).join();
+      for (const before = poses(); poses() === before; ) await new Promise(requestAnimationFrame); // it moves
+    });
+  });
+});
+
 /** As a framework does with a list that is sorted. */
 test('Package_ElementMovedWithinItsPage_GoesOn_AndOneTakenOffEnds', async () => {
   writeFileSync(

@@ -65,7 +65,7 @@ export class FaceShow extends Emitter<ShowEvents> {
   state: ShowState = 'loading';
   trouble: FaceTrouble | null = null;
   readonly camera = new OrbitCamera();
-  readonly link: Link;
+  link: Link;
   face: Face | null = null;
   /** Follows the stream while the face is still loading. */
   readonly player: Player = new Player(null, {
@@ -75,6 +75,9 @@ export class FaceShow extends Emitter<ShowEvents> {
   /** Pictures drawn in the last second in which the face moved. */
   framesPerSecond = 0;
 
+  private source: Source;
+  private asksSound: boolean;
+  private offersVoice: boolean;
   private sound: StreamSound | null = null;
   private speech: StreamSpeech | null = null;
   private captions: StreamCaptions | null = null;
@@ -114,6 +117,9 @@ export class FaceShow extends Emitter<ShowEvents> {
     super();
     this.page = stage.ownerDocument;
     this.window = this.page.defaultView!;
+    this.source = options.source;
+    this.asksSound = options.sound;
+    this.offersVoice = options.voice;
     this.paused = options.paused;
     this.budget = budgetOf(thisDevice((graphicsName ??= rendererName())), options.quality);
     this.render = this.budget.render;
@@ -128,10 +134,7 @@ export class FaceShow extends Emitter<ShowEvents> {
       this.settle();
     };
     this.images = new Images(options.source, options.paused);
-    this.link = new Link(options.source, options.sound);
-    this.link.client.on('header', () => this.emit('sound', undefined));
-    this.player.follow(this.link.client);
-    this.link.on('state', () => this.takeLink());
+    this.link = this.follow();
     for (const name of ['online', 'pageshow', 'focus']) this.window.addEventListener(name, this.check);
     this.page.addEventListener('visibilitychange', this.check);
     this.resized = new this.window.ResizeObserver(() => this.resize());
@@ -140,6 +143,53 @@ export class FaceShow extends Emitter<ShowEvents> {
     this.link.open();
     void this.load();
     this.frameRequest = this.window.requestAnimationFrame(this.frame);
+  }
+
+  private follow(): Link {
+    const link = new Link(this.source, this.asksSound);
+    link.client.on('header', () => this.emit('sound', undefined));
+    this.player.follow(link.client);
+    link.on('state', () => this.takeLink());
+    return link;
+  }
+
+  /** Connects to the stream anew. The face stays, and what was heard, said or shown in words goes on. */
+  private followAgain(): void {
+    const { isHeard, isSpeaking, sound, speech, captions } = this;
+    sound?.dispose();
+    speech?.dispose();
+    captions?.dispose();
+    this.sound = this.speech = this.captions = null;
+    this.link.close();
+    this.link = this.follow();
+    this.link.open();
+    const begin = (start: Promise<void>): void => void start.catch(() => this.emit('sound', undefined));
+    if (isHeard && this.asksSound) begin(this.setSound(true));
+    if (isSpeaking) begin(this.setVoice(true));
+    if (captions?.isOn) begin(this.setCaptions(true, this.roomBelow));
+    this.emit('sound', undefined);
+    this.settle();
+  }
+
+  /** A face that is drawn stays, whatever the server says to the other token. */
+  setToken(token: string | null): void {
+    this.source = this.images.source = { ...this.source, token };
+    this.followAgain();
+    this.retry(0);
+  }
+
+  /** Whether the sound is asked for: servers are told when a connection begins. */
+  askSound(asks: boolean): void {
+    if (asks === this.asksSound) return;
+    this.asksSound = asks;
+    this.followAgain();
+  }
+
+  /** Whether the browser's own voice may speak, after `setVoice`. */
+  offerVoice(offers: boolean): void {
+    this.offersVoice = offers;
+    if (!offers) this.speech?.stop();
+    this.emit('sound', undefined);
   }
 
   /** Draws only while it is seen; the graphics card keeps a face a little longer. */
@@ -177,7 +227,7 @@ export class FaceShow extends Emitter<ShowEvents> {
 
   /** Whether the browser has a voice, as far as is known: `setVoice` finds out. */
   get hasVoice(): boolean {
-    return this.options.voice && typeof speechSynthesis === 'object' && this.speech?.state !== 'failed';
+    return this.offersVoice && typeof speechSynthesis === 'object' && this.speech?.state !== 'failed';
   }
 
   get isSpeaking(): boolean {
@@ -250,7 +300,7 @@ export class FaceShow extends Emitter<ShowEvents> {
 
   private async load(): Promise<void> {
     const { signal } = this.work;
-    const { source } = this.options;
+    const { source } = this;
     const libraries = { draco: loadDraco(), runtime: loadRuntime() };
     try {
       const model = await modelOf(source, signal);
@@ -259,7 +309,7 @@ export class FaceShow extends Emitter<ShowEvents> {
         const face = await faceOf(source, model, libraries, level, this.images, signal);
         const wanted = firstImages(face.rig.images, this.paused).map(({ sha256 }) => this.images.get(sha256));
         await Promise.race([Promise.allSettled(wanted), new Promise((wake) => setTimeout(wake, imagePatience))]);
-        if (signal.aborted) return;
+        if (signal.aborted || source !== this.source) return;
         const kernel = new Kernel(await libraries.runtime, face, { withVertices: false });
         this.kernel?.dispose();
         this.model = model;
@@ -269,12 +319,13 @@ export class FaceShow extends Emitter<ShowEvents> {
         this.player.show(kernel);
         this.emit('ready', undefined);
       }
+      if (source !== this.source) return;
       this.attempts = 0;
       this.setTrouble(null);
       this.settle();
       if (this.link.state === 'ended') this.link.open();
     } catch (error) {
-      if (signal.aborted) return;
+      if (signal.aborted || source !== this.source) return; // of a token that was replaced
       const cause = error instanceof FaceTrouble ? error : trouble('unreachable');
       this.setTrouble(cause);
       if (isPassing(cause.code)) this.retry(Math.min(longestRetry, firstRetry * 2 ** this.attempts++));
@@ -407,7 +458,7 @@ export class FaceShow extends Emitter<ShowEvents> {
     this.loadingLevel = true;
     try {
       const libraries = { draco: loadDraco(), runtime: loadRuntime() };
-      const face = await faceOf(this.options.source, this.model, libraries, level, this.images, this.work.signal);
+      const face = await faceOf(this.source, this.model, libraries, level, this.images, this.work.signal);
       // The poses are the same for all levels, so the kernel and its player stay.
       this.show(face);
     } catch {

@@ -219,7 +219,7 @@ export class Images {
   private readonly known = new Map<string, Promise<ImageBitmap>>();
 
   constructor(
-    private readonly source: Source,
+    public source: Source,
     private readonly isStill: boolean,
   ) {}
 

@@ -110,8 +110,10 @@ export class SemblanteFace extends FaceAttributesElement {
 
   /** A token, for a server of another origin that asks for one. Write only; not an attribute, which pages show. */
   set token(value: string | null) {
+    if (value === this.secret) return;
     this.secret = value;
-    this.reload();
+    if (this.show?.face) this.show.setToken(value);
+    else this.reload();
   }
 
   // ---- state ------------------------------------------------------------------------------------------------
@@ -244,6 +246,8 @@ export class SemblanteFace extends FaceAttributesElement {
     if (name === 'poster') this.setPoster();
     else if (name === 'alt') this.name();
     else if (name === 'fit') this.show?.setFit(this.fit);
+    else if (name === 'sound') this.show?.askSound(this.sound);
+    else if (name === 'voice') this.show?.offerVoice(this.voice);
     else if (name === 'captions') void this.setCaptions();
     else this.reload();
   }
