@@ -4,10 +4,11 @@
  *   semblante_package package = {0};
  *   package.size = sizeof(package);
  *   package.positions = positions;  package.vertex_count = n;   // decoded mesh.drc, in decoded order; or mesh_drc
- *   package.weights = weights;      package.weights_size = ...; // bytes of `weights`
- *   package.rig_json = rig;         package.rig_json_size = ...;// bytes of `rig.json`
+ *   package.weights = weights;      package.weights_size = weights_size;  // bytes of `weights`
+ *   package.rig_json = rig;         package.rig_json_size = rig_size;     // bytes of `rig.json`
  *   semblante_head* head;
- *   if (semblante_head_create(&package, NULL, &head, &error) != SEMBLANTE_OK) { puts(error.message); ... }
+ *   semblante_error error;
+ *   if (semblante_head_create(&package, NULL, &head, &error) != SEMBLANTE_OK) return puts(error.message);
  *   semblante_frame frame = {0};
  *   frame.fap[3] = 300;                                         // open the jaw
  *   semblante_head_set_frame(head, &frame);

@@ -42,6 +42,18 @@ def _words(error: urllib.error.HTTPError) -> str:
     return f"{detail} ({advice})" if isinstance(advice, str) else detail
 
 
+def _base(server: str) -> str:
+    """The address of a server without its last slash."""
+    try:
+        parts = urllib.parse.urlsplit(server)
+        is_address = parts.scheme in ("http", "https") and bool(parts.hostname) and parts.port != 0
+    except ValueError:  # of the port
+        is_address = False
+    if not is_address:
+        raise ValueError(f"server {server!r} is no address such as http://127.0.0.1:8080")
+    return server.rstrip("/")
+
+
 def fetch_head(server: str, model: str, *, lod: Optional[int] = None, max_vertices: Optional[int] = None,
                token: Optional[str] = None, ssl_context: Optional[ssl.SSLContext] = None, timeout: float = 30.0,
                **options: Any) -> Head:
@@ -49,7 +61,7 @@ def fetch_head(server: str, model: str, *, lod: Optional[int] = None, max_vertic
     `token`: default SEMBLANTE_TOKEN of the environment. `options`: those of Head. Raises urllib.error.URLError,
     SemblanteError."""
     query = {name: value for name, value in (("lod", lod), ("max_vertices", max_vertices)) if value is not None}
-    folder = f"{server.rstrip('/')}/v1/models/{urllib.parse.quote(model, safe='')}"
+    folder = f"{_base(server)}/v1/models/{urllib.parse.quote(model, safe='')}"
     suffix = "?" + urllib.parse.urlencode(query) if query else ""
     token = _token(token)
 
@@ -82,7 +94,7 @@ class Connection:
     def __init__(self, server: str, stream: str, *, token: Optional[str] = None,
                  ssl_context: Optional[ssl.SSLContext] = None, connect_timeout: float = 5.0, **options: Any) -> None:
         """`options`: those of Stream."""
-        self.url = f"{server.rstrip('/')}/v1/streams/{urllib.parse.quote(stream, safe='')}"
+        self.url = f"{_base(server)}/v1/streams/{urllib.parse.quote(stream, safe='')}"
         self.stream = Stream(seed=int.from_bytes(os.urandom(8), "little"), **options)
         self._token = _token(token)
         self._ssl_context = ssl_context

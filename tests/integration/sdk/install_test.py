@@ -125,6 +125,25 @@ class Installed(unittest.TestCase):
                     self.assertEqual(run(build / f"clash_{kind}"), "4 7\n")
         self.assertEqual(len(faces), 1)
 
+    def test_the_integrations_of_the_readme_and_of_the_header_are_compiled_as_they_are_printed(self):
+        def indented(text):
+            return "".join(line[4:] + "\n" for line in text.splitlines() if line.startswith("    "))
+
+        readme = indented((TOP / "clients/README.md").read_text())
+        header = "".join(line[5:] for line in re.findall(r"^ \*   .*\n", (TOP / "clients/runtime/semblante.h").read_text().split("Rules")[0],
+                                                         re.MULTILINE))
+        given = """const float* positions, uint32_t n, const uint8_t* mesh, size_t mesh_size, const uint8_t* weights, size_t weights_size,
+const char* rig, size_t rig_size, float* out, double now, double elapsed"""
+        for name, text in (("readme", readme), ("header", header)):
+            self.assertIn("semblante_head_create", text)
+            text = (f"#include <stdio.h>\n#include <semblante/semblante.h>\nint integrate({given});\n"
+                    f"int integrate({given}) {{\n{text}return 0; }}\n")
+            for ending, compiler in ((".c", ["cc", "-std=c99"]), (".cpp", ["c++", "-std=c++11", "-Wno-missing-field-initializers"])):
+                source = self.folder / (name + ending)
+                source.write_text(text)
+                run(compiler[0], *STRICT, *compiler[1:], *run("pkg-config", "--cflags", "semblante", env=self.packages).split(),
+                    "-Wno-unused-parameter", "-c", source, "-o", self.folder / "integration.o")
+
     def test_another_minor_version_is_refused(self):
         done = subprocess.run(["cmake", "-S", self.folder / "consumer", "-B", self.folder / "version", "-DLANGUAGES=C",
                                "-DPROGRAMS=hello_face.c", "-DVERSION=0.0", f"-DCMAKE_PREFIX_PATH={self.prefix}"],

@@ -2,6 +2,7 @@
 
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import tempfile
@@ -29,6 +30,20 @@ class CSharp(GoldenAnswers, unittest.TestCase):
     def tearDownClass(cls):
         cls.process.communicate()
         cls.folder.cleanup()
+
+    def test_the_behaviour_of_the_readme_is_compiled(self):
+        """With as much of Unity as it uses, and the two methods that it leaves to the reader."""
+        block, = re.findall(r"^```csharp\n(.*?)^```", (TOP / "clients/csharp/README.md").read_text(), re.DOTALL | re.MULTILINE)
+        source = pathlib.Path(self.folder.name, "Face.cs")
+        source.write_text("""using System.Collections.Concurrent;
+class MonoBehaviour {}
+class Mesh { public Vector3[] vertices; }
+struct Vector3 { public Vector3(float x, float y, float z) {} }
+static class Time { public static double realtimeSinceStartupAsDouble; public static float deltaTime; }
+""" + block.rstrip().removesuffix("}").replace("public sealed", "sealed") +
+                          "void Handle(Semblante.StreamEvent happened) {} void Send(byte[] message) {} }\n")
+        subprocess.run(["mcs", "-unsafe", "-nowarn:0649,0414", "-warnaserror", "-target:library", f"-out:{source}.dll", source,
+                        *(TOP / "clients/csharp").glob("*.cs")], check=True)
 
     def test_structs_have_the_size_that_they_have_in_python(self):
         from semblante import _library

@@ -3,6 +3,7 @@ no JDK."""
 
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -50,6 +51,13 @@ class Java(GoldenAnswers, unittest.TestCase):
     def tearDownClass(cls):
         cls.process.communicate()
         cls.folder.cleanup()
+
+    def test_the_program_of_the_readme_is_compiled_as_it_is_printed(self):
+        block, = re.findall(r"^```java\n(.*?)^```", (TOP / "clients/java/README.md").read_text(), re.DOTALL | re.MULTILINE)
+        source = pathlib.Path(self.folder.name, "Face.java")
+        source.write_text(block)
+        subprocess.run([jdk() / "bin/javac", "--release", "8", "-Xlint:all", "-Xlint:-options", "-Werror", "-cp", self.folder.name, "-d",
+                        pathlib.Path(self.folder.name, "readme"), source], check=True)
 
     def test_normals_have_length_one(self):
         self.numbers("head", VECTORS / "face")

@@ -11,6 +11,7 @@ import math
 import os
 import pathlib
 import pickle
+import re
 import resource
 import socket
 import subprocess
@@ -25,7 +26,7 @@ BUILD = pathlib.Path(os.environ.get("SEMBLANTE_BUILD", TOP / "build"))
 sys.path[:0] = [str(TOP / "clients/python"), str(TOP / "tests/deploy")]
 
 import semblante  # noqa: E402
-from support import Server, eventually, temporary_folder  # noqa: E402
+from support import Server, eventually, get, get_json, temporary_folder  # noqa: E402
 
 VECTORS = TOP / "protocol/vectors"
 
@@ -300,6 +301,31 @@ class Streams(unittest.TestCase):
         self.assertEqual(times, sorted(times))
         self.assertNotEqual(head.positions().tolist(), head.neutral.tolist())
 
+    def test_the_programs_of_the_readme_run_as_they_are_printed(self):
+        self.head()
+        text = (TOP / "clients/python/README.md").read_text().replace("http://127.0.0.1:8080", self.server.url)
+        shows, publishes = re.findall(r"^```python\n(.*?)^```", text, re.DOTALL | re.MULTILINE)
+        drawn = []
+
+        def draw(vertices, triangles):
+            drawn.append((len(vertices), len(triangles)))
+            if len(drawn) == 5:
+                raise KeyboardInterrupt
+
+        names = {"draw": draw}
+        with self.assertRaises(KeyboardInterrupt):
+            exec(shows, names)
+        self.assertEqual(drawn[4], (names["head"].vertex_count, len(names["head"].triangles.tolist())))
+        self.assertEqual(get(f"{self.server.url}/v1/streams", data=b'{"name":"hello"}', headers={"content-type": "application/json"})[0], 201)
+        exec(publishes, names)
+        self.assertGreater(get_json(f"{self.server.url}/v1/streams/hello")["sequence"], 0)
+
+    def test_an_address_that_is_none_of_a_server_is_said(self):
+        for server in ("127.0.0.1:8080", "localhost", "ftp://faces.example", "http://", "http://faces.example:99999", ""):
+            for call in (semblante.fetch_head, semblante.Connection):
+                with self.assertRaisesRegex(ValueError, "is no address such as http://127.0.0.1:8080"):
+                    call(server, "sample")
+
     def test_a_rate_of_pictures_that_is_none_is_refused(self):
         for rate in (0, -1, math.nan, math.inf):
             with self.assertRaisesRegex(ValueError, "rate"):
@@ -311,7 +337,6 @@ class Streams(unittest.TestCase):
 
     def test_what_is_published_arrives(self):
         request = json.dumps({"name": "python"}).encode()
-        from support import get
         self.assertEqual(get(f"{self.server.url}/v1/streams", data=request, headers={"content-type": "application/json"})[0], 201)
         with semblante.Connection(self.server.url, "python") as reader, \
                 semblante.Connection(self.server.url, "python", publish=True) as writer:
