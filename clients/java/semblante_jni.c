@@ -12,6 +12,19 @@ enum { HIGH_LEVEL = 7, FAPS = 69, FRAME = HIGH_LEVEL + FAPS };
 #define NATIVE(result, name) JNIEXPORT result JNICALL Java_semblante_Native_##name
 #define HANDLE(type, at) ((type*)(intptr_t)(at))
 
+/* NewStringUTF reads Java's own UTF-8, which has no characters of four bytes, and Android ends the process for others.
+ * What the library tells has words of servers and files. */
+static jstring text_of(JNIEnv* env, const char* utf8) {
+  const jsize size = (jsize)strlen(utf8);
+  jbyteArray bytes = (*env)->NewByteArray(env, size);
+  jclass type = bytes == NULL ? NULL : (*env)->FindClass(env, "java/lang/String");
+  jmethodID make = type == NULL ? NULL : (*env)->GetMethodID(env, type, "<init>", "([BLjava/lang/String;)V");
+  jstring encoding = make == NULL ? NULL : (*env)->NewStringUTF(env, "UTF-8");
+  if (encoding == NULL) return NULL;
+  (*env)->SetByteArrayRegion(env, bytes, 0, size, (const jbyte*)utf8);
+  return (jstring)(*env)->NewObject(env, type, make, bytes, encoding);
+}
+
 static void throw_failure(JNIEnv* env, semblante_result result, const semblante_error* error) {
   jclass type = (*env)->FindClass(env, "semblante/SemblanteException");
   if (type == NULL) return;
@@ -19,9 +32,12 @@ static void throw_failure(JNIEnv* env, semblante_result result, const semblante_
       (*env)->GetMethodID(env, type, "<init>", "(Ljava/lang/String;Ljava/lang/String;Ljava/lang/String;)V");
   const char* code = semblante_result_name(result);
   if (make == NULL) return;
-  jobject thrown = (*env)->NewObject(
-      env, type, make, (*env)->NewStringUTF(env, code), (*env)->NewStringUTF(env, error != NULL ? error->where : ""),
-      (*env)->NewStringUTF(env, error != NULL && error->message[0] != 0 ? error->message : code));
+  jstring name = text_of(env, code);
+  jstring where = name == NULL ? NULL : text_of(env, error != NULL ? error->where : "");
+  jstring message =
+      where == NULL ? NULL : text_of(env, error != NULL && error->message[0] != 0 ? error->message : code);
+  if (message == NULL) return;
+  jobject thrown = (*env)->NewObject(env, type, make, name, where, message);
   if (thrown != NULL) (*env)->Throw(env, (jthrowable)thrown);
 }
 
@@ -225,16 +241,7 @@ NATIVE(jbyteArray, streamTakeBytes)(JNIEnv* env, jclass type, jlong stream) {
   return taken;
 }
 
-static void set_bytes(JNIEnv* env, jobjectArray to, jsize at, const char* text) {
-  const jsize size = (jsize)strlen(text);
-  jbyteArray bytes = (*env)->NewByteArray(env, size);
-  if (bytes == NULL) return;
-  (*env)->SetByteArrayRegion(env, bytes, 0, size, (const jbyte*)text);
-  (*env)->SetObjectArrayElement(env, to, at, bytes);
-  (*env)->DeleteLocalRef(env, bytes);
-}
-
-/* A TEXT event: the text and its language as UTF-8, which NewStringUTF does not read, and the times of its words. */
+/* A TEXT event: the text, its language, and the times of its words. */
 static void set_said(JNIEnv* env, jobjectArray said, const semblante_event* event) {
   uint32_t count = 0;
   semblante_score_words(event->packet, event->packet_size, NULL, &count);
@@ -243,8 +250,8 @@ static void set_said(JNIEnv* env, jobjectArray said, const semblante_event* even
   if (first == NULL) return;
   semblante_score_words(event->packet, event->packet_size, first, &count);
   (*env)->ReleaseDoubleArrayElements(env, times, first, 0);
-  set_bytes(env, said, 0, event->text);
-  set_bytes(env, said, 1, event->language);
+  (*env)->SetObjectArrayElement(env, said, 0, text_of(env, event->text));
+  (*env)->SetObjectArrayElement(env, said, 1, text_of(env, event->language));
   (*env)->SetObjectArrayElement(env, said, 2, times);
 }
 
@@ -261,8 +268,8 @@ NATIVE(jboolean, streamNextEvent)
       event.type, event.state, event.code, event.is_final, event.media_time, (double)event.sequence, event.duration};
   (*env)->SetDoubleArrayRegion(env, numbers, 0, 7, values);
   if (event.type == SEMBLANTE_EVENT_TEXT) set_said(env, said, &event);
-  (*env)->SetObjectArrayElement(env, texts, 0, (*env)->NewStringUTF(env, event.error.where));
-  (*env)->SetObjectArrayElement(env, texts, 1, (*env)->NewStringUTF(env, event.error.message));
+  (*env)->SetObjectArrayElement(env, texts, 0, text_of(env, event.error.where));
+  (*env)->SetObjectArrayElement(env, texts, 1, text_of(env, event.error.message));
   return JNI_TRUE;
 }
 

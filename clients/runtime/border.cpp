@@ -2,6 +2,14 @@
 
 namespace semblante::runtime {
 
+void copy_text(std::span<char> to, std::string_view text) {
+  std::size_t length = std::min(text.size(), to.size() - 1);
+  const auto continues = [&](std::size_t at) { return (static_cast<unsigned char>(text[at]) & 0xC0U) == 0x80U; };
+  while (length > 0 && length < text.size() && continues(length)) --length;
+  std::memcpy(to.data(), text.data(), length);
+  to[length] = '\0';
+}
+
 semblante_result result_of(ErrorCode code) {
   switch (code) {
     case ErrorCode::unsupported:

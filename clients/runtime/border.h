@@ -15,13 +15,8 @@
 /// What every function at the border of the library does: sized structs, errors as values, no exception.
 namespace semblante::runtime {
 
-/// Copies a text to a field of a C struct: truncated to its size, and zero-terminated.
-template <std::size_t N>
-void copy_text(char (&to)[N], std::string_view text) {
-  const std::size_t length = std::min(text.size(), N - 1);
-  std::memcpy(to, text.data(), length);
-  to[length] = '\0';
-}
+/// Copies a text to a field of a C struct: truncated to its size at the end of a character, and zero-terminated.
+void copy_text(std::span<char> to, std::string_view text);
 
 inline semblante_result fail(semblante_error* error, semblante_result result, std::string_view where,
                              std::string_view message) {

@@ -1,7 +1,5 @@
 package semblante;
 
-import java.nio.charset.StandardCharsets;
-
 /** What happened to a stream; see semblante_event of semblante.h. */
 public final class StreamEvent {
     public enum Type { NONE, STATE, CONNECT, CLOSE, HEADER, KEYFRAME, FRAMES, CLOCK, REFUSED, FAULT, END, SOUND, TEXT }
@@ -34,8 +32,8 @@ public final class StreamEvent {
         where = texts[0];
         message = texts[1];
         boolean isText = type == Type.TEXT;
-        said = isText ? new String((byte[]) words[0], StandardCharsets.UTF_8) : null;
-        language = isText ? new String((byte[]) words[1], StandardCharsets.UTF_8) : null;
+        said = isText ? (String) words[0] : null;
+        language = isText ? (String) words[1] : null;
         wordTimes = isText ? (double[]) words[2] : null;
         number = isText ? (long) numbers[5] : 0;
         duration = isText ? numbers[6] : 0;

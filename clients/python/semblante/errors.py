@@ -1,7 +1,7 @@
 """Errors of the library as exceptions."""
 
 import ctypes
-from typing import Any, Callable, ClassVar, NoReturn, Optional, SupportsIndex, TypeVar
+from typing import Any, Callable, ClassVar, NoReturn, Optional, SupportsIndex, Tuple, TypeVar
 
 from ._library import library
 from ._structs import Error
@@ -37,22 +37,42 @@ def make(function: Callable[..., int], *arguments: Any) -> ctypes.c_void_p:
 _Self = TypeVar("_Self", bound="Owner")
 
 
-class Owner:
-    """Owns a handle of the library and destroys it, at the latest when the object is collected."""
+class Memory:
+    """A handle of the library, destroyed with the last reference to it: that of its object, and those of views."""
 
-    _destroy: ClassVar[Callable[[ctypes.c_void_p], None]]
-
-    def __init__(self, handle: ctypes.c_void_p) -> None:
-        self._handle: Optional[ctypes.c_void_p] = handle
-
-    def close(self) -> None:
-        """Frees the memory. The object must not be used afterwards."""
-        handle, self._handle = getattr(self, "_handle", None), None
-        if handle:
-            type(self)._destroy(handle)
+    def __init__(self, handle: ctypes.c_void_p, destroy: Callable[[ctypes.c_void_p], None]) -> None:
+        self.handle = handle
+        self._destroy = destroy
 
     def __del__(self) -> None:
-        self.close()
+        self._destroy(self.handle)
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        return type(None), ()  # a copy of a view has its own numbers
+
+
+class Owner:
+    """Owns a handle of the library, until it is closed or collected."""
+
+    _destroy: ClassVar[Callable[[ctypes.c_void_p], None]]
+    _held: Optional[Memory] = None
+
+    def __init__(self, handle: ctypes.c_void_p) -> None:
+        self._held = Memory(handle, type(self)._destroy)
+
+    @property
+    def _memory(self) -> Memory:
+        if self._held is None:
+            raise ValueError(f"this {type(self).__name__} is closed")
+        return self._held
+
+    @property
+    def _handle(self) -> ctypes.c_void_p:
+        return self._memory.handle
+
+    def close(self) -> None:
+        """Frees the memory, once no view of it is left. The object must not be used afterwards."""
+        self._held = None
 
     def __reduce_ex__(self, protocol: SupportsIndex) -> NoReturn:
         raise TypeError(f"a {type(self).__name__} is memory of the library: it cannot be copied or pickled")  # freed twice

@@ -39,26 +39,26 @@ class Head(Owner):
         """#T by 3 vertex indices."""
         count = ctypes.c_uint32()
         address = library.semblante_head_triangles(self._handle, ctypes.byref(count))
-        return arrays.view(address, "I", (count.value, 3), self) if address else arrays.new("I", (0, 3))[0]
+        return arrays.view(address, "I", (count.value, 3), self._memory) if address else arrays.new("I", (0, 3))[0]
 
     @property
     def uvs(self) -> Optional[Any]:
         """#V by 2, origin top left; None if the mesh has none."""
         address = library.semblante_head_uvs(self._handle)
-        return arrays.view(address, "f", (self.vertex_count, 2), self) if address else None
+        return arrays.view(address, "f", (self.vertex_count, 2), self._memory) if address else None
 
     @property
     def colors(self) -> Optional[Any]:
         """#V by 3 bytes: red, green, blue, sRGB; they multiply material and image as linear light. None, which is white, if
         the mesh has none."""
         address = library.semblante_head_colors(self._handle)
-        return arrays.view(address, "B", (self.vertex_count, 3), self) if address else None
+        return arrays.view(address, "B", (self.vertex_count, 3), self._memory) if address else None
 
     @property
     def neutral(self) -> Any:
         """#V by 3: the vertices of the neutral face, model units."""
         face = library.semblante_head_face(self._handle).contents
-        return arrays.view(ctypes.addressof(face.rest.contents), "f", (self.vertex_count, 3), self)
+        return arrays.view(ctypes.addressof(face.rest.contents), "f", (self.vertex_count, 3), self._memory)
 
     @property
     def fapu(self) -> Dict[str, float]:
@@ -69,8 +69,10 @@ class Head(Owner):
     @property
     def pose(self) -> Pose:
         """The current pose. A view: it changes with the head."""
-        pose: Pose = library.semblante_head_pose(self._handle).contents
-        return pose
+        pose: Any = library.semblante_head_pose(self._handle).contents
+        pose.owner = self._memory
+        shown: Pose = pose
+        return shown
 
     def set_viseme_share(self, share: float) -> None:
         """0..1: the share of the viseme at a point that an expression moves too (Eq. 5), for frames set from now on."""

@@ -62,7 +62,7 @@ class Take(Owner):
         if not first:
             return ()
         block: Any = (TimedFrame * count.value).from_address(ctypes.addressof(first.contents))
-        block.owner = self
+        block.owner = self._memory
         frames: Sequence[TimedFrame] = block
         return frames
 

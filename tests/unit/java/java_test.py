@@ -63,6 +63,11 @@ class Java(GoldenAnswers, unittest.TestCase):
         self.numbers("head", VECTORS / "face")
         self.assertAlmostEqual(self.numbers("normals")[0], 1, delta=1e-5)
 
+    def test_words_of_files_are_told_in_every_script(self):
+        document = pathlib.Path(self.folder.name, "document.json")
+        document.write_text('{"format":"semblante.performance","version":1,"name":"a","cues":[],"\U0001f600":1}', encoding="utf-8")
+        self.assertIn(" /\U0001f600 ", self.ask("performance", document))
+
     def test_an_array_that_is_too_short_is_refused(self):
         self.numbers("head", VECTORS / "face")
         self.assertRegex(self.ask("short"), "^error ")

@@ -20,6 +20,7 @@ import tempfile
 import typing
 import unittest
 import urllib.error
+import weakref
 
 TOP = pathlib.Path(__file__).resolve().parents[3]
 BUILD = pathlib.Path(os.environ.get("SEMBLANTE_BUILD", TOP / "build"))
@@ -159,6 +160,31 @@ class Heads(unittest.TestCase):
         positions = golden_head().positions()
         gc.collect()
         self.assertEqual(positions.tolist(), neutral.tolist())
+
+    def test_views_outlive_their_head_and_a_closed_head_says_that_it_is(self):
+        head = golden_head("face_colored")
+        frame = semblante.frame({3: 100})
+        head.set_frame(frame)
+        views = [head.neutral, head.triangles, head.colors]
+        pose, copied = head.pose, copy.deepcopy(head.pose)
+        contents = [view.tolist() for view in views], list(pose.fp)
+        memory = weakref.ref(head._memory)
+        head.close()
+        head.close()
+        others = [golden_head() for _ in range(20)]  # would take the memory
+        self.assertEqual(([view.tolist() for view in views], list(pose.fp)), contents)
+        for use in (lambda: head.triangles, lambda: head.neutral, lambda: head.pose, lambda: head.colors, head.positions, head.normals,
+                    lambda: head.set_frame(frame), lambda: semblante.Player().show(head)):
+            with self.assertRaisesRegex(ValueError, "this Head is closed"):
+                use()
+        points = pose.fp
+        del views, pose, others
+        gc.collect()
+        self.assertIsNotNone(memory())
+        del points
+        gc.collect()
+        self.assertIsNone(memory())
+        self.assertEqual(list(copied.fp), contents[1])
 
     def test_arrays_are_numpys_where_it_is_installed(self):
         try:

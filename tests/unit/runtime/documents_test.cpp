@@ -101,6 +101,20 @@ TEST(RuntimePerformance, NameDurationAndTimes) {
   }
 }
 
+TEST(RuntimePerformance, WordsThatDoNotFit_EndWithACharacter) {
+  for (const std::string first : {"", "a"}) {
+    std::string member = first;
+    std::string told = "/" + first;
+    for (int i = 0; i < 90; ++i) member += "\u00e9";
+    while (told.size() + 2 < sizeof(semblante_error::where)) told += "\u00e9";
+    semblante_error error{};
+    const std::string document =
+        R"({"format":"semblante.performance","version":1,"name":"a","cues":[],")" + member + "\":1}";
+    EXPECT_EQ(make(document, &error), nullptr);
+    EXPECT_EQ(error.where, told);
+  }
+}
+
 TEST(Take, FapVectors_AreReadWithTheirWarnings) {
   std::size_t files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(SEMBLANTE_SOURCE_DIR "/protocol/vectors/fap")) {
