@@ -113,6 +113,11 @@ bool is_named_teeth(const PartShape& shape) {
   return names_teeth(lower_case(shape.name)) || names_teeth(lower_case(shape.material));
 }
 
+bool is_lid_name(std::string_view name) {
+  const std::string lower = lower_case(name);
+  return has_any(lower, {"eyelid", "eye_lid"}) || has_word(lower, "lid") || has_word(lower, "lids");
+}
+
 bool is_rigid_name(std::string_view name) { return role_of_name(lower_case(name), 0.0) == PartRole::rest; }
 
 bool is_face_name(const PartShape& shape) { return region_of(shape) == Region::face; }

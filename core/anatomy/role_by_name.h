@@ -26,6 +26,9 @@ bool is_body_name(const PartShape& shape);
 /// True if it is named as something that can be neither skin nor body: eyes, teeth, mouth, lashes, hair, glasses.
 bool has_name_of_another_part(const PartShape& shape);
 
+/// True for the name of a lid: "upper lids", "EyelidLeft".
+bool is_lid_name(std::string_view name);
+
 /// True for a name of what follows the head rigidly wherever it lies: hair, hats and glasses.
 bool is_rigid_name(std::string_view name);
 

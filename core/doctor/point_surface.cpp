@@ -10,6 +10,7 @@
 #include "core/anatomy/front_points.h"
 #include "core/anatomy/part_roles.h"
 #include "core/anatomy/point_lookup.h"
+#include "core/anatomy/role_by_name.h"
 #include "core/doctor/point_checks.h"
 #include "core/doctor/words.h"
 #include "core/geometry/triangle_shape.h"
@@ -56,9 +57,10 @@ std::size_t main_part(const PointsOfParts& of_parts) {
       ->first;
 }
 
-/// Whether all points of a part are points of the lids: lids may be separate parts.
-bool is_a_lid(const std::vector<SurfacePoint>& points) {
-  return points.size() >= 2 &&
+/// Whether all points of a part are points of the lids: lids may be separate parts. A single point says so only with
+/// the part's name, because it may be on a lash.
+bool is_a_lid(const std::vector<SurfacePoint>& points, const Part& part) {
+  return (points.size() >= 2 || is_lid_name(part.name)) &&
          std::all_of(points.begin(), points.end(), [](const SurfacePoint& p) { return group_of(p.id) == 3; });
 }
 
@@ -88,7 +90,7 @@ void find_skin_points_elsewhere(const Subject& head, std::span<const SurfacePoin
   if (of_parts.size() < 2) return;
   const std::size_t main = main_part(of_parts);
   for (const auto& [part, there] : of_parts) {
-    if (part == main || is_a_lid(there)) continue;
+    if (part == main || is_a_lid(there, head.rig.parts[part])) continue;
     if (there.size() < points_of_a_piece) {
       for (const SurfacePoint& point : there) tell_wrong_part(head, point, "on the skin of the face", out);
       continue;

@@ -31,6 +31,17 @@ TEST(GoodHeads, Sample_HasNoFinding) {
   EXPECT_THAT(lines(testing::examine_with_weights(testing::sample_head(), WeightMethod::smooth)), IsEmpty());
 }
 
+// The lids of this head are parts of their own. Its quick set marks one point of each.
+TEST(GoodHeads, SampleWithOnePointOnEachLid_HasNoPointOnAWrongPart) {
+  testing::Head head = testing::sample_head();
+  std::erase_if(head.points, [](const FeaturePoint& p) {
+    const std::string name = to_string(p.id);
+    return name == "3.13" || name == "3.14";
+  });
+  for (const Finding& finding : testing::examine_without_weights(head).findings)
+    EXPECT_NE(finding.code, FindingCode::point_on_wrong_part) << finding.words;
+}
+
 TEST(GoodHeads, OtherPersonsOfOurOwn_HaveNoFinding) {
   for (const char* const name : {"broad", "long", "pressed lips", "body"})
     EXPECT_THAT(lines(testing::examine_with_weights(*testing::head_named(name), WeightMethod::smooth)), IsEmpty())
