@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "core/anatomy/point_lookup.h"
@@ -49,6 +50,22 @@ std::optional<glm::dvec3> mean_of(const FeaturePointSet& points, std::initialize
   return count > 0.0 ? std::optional(sum / count) : std::nullopt;
 }
 
+/// Whether two parts are about mirror images of each other in a plane through `middle`, across the axis that parts
+/// them: the head may lie or face to a side.
+bool is_twin(const PartShape& a, const PartShape& b, const glm::dvec3& middle) {
+  constexpr double same_size = 0.2;  // of the extent
+  constexpr double same_mesh = 1.25;
+  constexpr double off_image = 0.5;  // of the extent: one eye may be higher than the other
+  const auto [less, more] = std::minmax(a.triangles, b.triangles);
+  const double size = glm::length(b.extent());
+  if (more > same_mesh * less || glm::distance(a.extent(), b.extent()) > same_size * size) return false;
+  const glm::dvec3 apart = glm::abs(a.box_center() - b.box_center());
+  const int axis = apart.x > std::max(apart.y, apart.z) ? 0 : apart.y > apart.z ? 1 : 2;
+  glm::dvec3 image = b.box_center();
+  image[axis] = 2.0 * middle[axis] - image[axis];
+  return glm::distance(a.box_center(), image) < off_image * size;
+}
+
 class PlaceGuess {
  public:
   PlaceGuess(std::span<const PartShape> shapes, const FeaturePointSet& points, std::size_t skin,
@@ -56,6 +73,7 @@ class PlaceGuess {
       : shapes_(shapes), points_(points), skin_(shapes[skin]), roles_(roles) {}
 
   void run() {
+    find_twins_of_skin();
     eyes_[0] = mean_of(points_, {"3.5"});
     eyes_[1] = mean_of(points_, {"3.6"});
     if (!eyes_[0]) eyes_[0] = mean_of(points_, {"3.1", "3.3", "3.7", "3.11"});
@@ -72,6 +90,28 @@ class PlaceGuess {
 
  private:
   [[nodiscard]] bool is_open(std::size_t p) const { return !roles_[p] && shapes_[p].triangles > 0; }
+
+  /// A lid that is a part of its own, a shell about the eye, and has no point yet goes with its mirror image, which has
+  /// one. By its place and shape it would be an eyeball.
+  void find_twins_of_skin() {
+    for (std::size_t marked = 0; marked < shapes_.size(); ++marked) {
+      if (roles_[marked] != PartRole::skin || &shapes_[marked] == &skin_ || !is_about_a_ball(shapes_[marked])) continue;
+      for (std::size_t p = 0; p < shapes_.size(); ++p) {
+        if (!is_open(p) || !is_ball(shapes_[p])) continue;
+        if (!is_twin(shapes_[p], shapes_[marked], skin_.box_center())) continue;
+        roles_[p] = PartRole::skin;
+        break;
+      }
+    }
+  }
+
+  /// Whether a part is a shell about a smaller ball. An eyeball on which a lid's point was set by mistake is not.
+  [[nodiscard]] bool is_about_a_ball(const PartShape& shell) const {
+    return is_ball(shell) && std::any_of(shapes_.begin(), shapes_.end(), [&](const PartShape& inner) {
+             if (&inner == &shell || !is_ball(inner) || inner.sphere->radius >= shell.sphere->radius) return false;
+             return glm::distance(inner.sphere->center, shell.sphere->center) < 0.5 * shell.sphere->radius;
+           });
+  }
 
   /// Largest part with that role.
   [[nodiscard]] const PartShape* largest(PartRole role) const {

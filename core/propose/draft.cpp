@@ -9,7 +9,9 @@
 #include <glm/matrix.hpp>
 
 #include "core/anatomy/front_points.h"
+#include "core/anatomy/part_roles.h"
 #include "core/anatomy/point_order.h"
+#include "core/propose/mouth_and_eyes.h"
 #include "core/tables/mpeg4.h"
 
 namespace semblante {
@@ -20,6 +22,9 @@ constexpr double marking_noise = 0.015;  ///< standard deviation of a marked poi
 constexpr double mirror_noise = 0.02;    ///< standard deviation of the mirror image of a marked point
 constexpr double surely = 0.12;          ///< largest claimed radius of `high` confidence
 constexpr double about = 0.26;           ///< largest claimed radius of `medium` confidence
+// How far an eyeball may lie from the mirror image of the other one, with the difference of their radii.
+constexpr double least_off_mirror = 0.05;  ///< below it, mirror images of points need no correction
+constexpr double most_off_mirror = 0.5;    ///< above it, one of the two is no eyeball
 
 /// How far heads differ from each other beyond what their references tell, as a radius: measured on the proposals for
 /// heads that are not among the references (bench_propose). Zero for the other points.
@@ -61,13 +66,26 @@ std::vector<glm::dvec3> thinned(const std::vector<glm::dvec3>& places, std::size
   return some;
 }
 
+/// The piece of the surface with most of the points.
+PartId piece_with_most(const Surface& surface, const FeaturePointSet& points) {
+  std::vector<std::size_t> count(std::max<std::size_t>(1, surface.part_count()));
+  for (const FeaturePoint& p : points) {
+    if (p.vertex) ++count[surface.part_of[surface.surface_of[p.vertex->value()].value()].value()];
+  }
+  return PartId(static_cast<std::uint32_t>(std::max_element(count.begin(), count.end()) - count.begin()));
+}
+
 }  // namespace
 
 FeaturePointId id_of(std::size_t id) { return FeaturePointId(static_cast<std::uint8_t>(id)); }
 std::size_t index_of(std::string_view name) { return parse_feature_point(name)->value(); }
 
 Draft::Draft(const HeadToMark& head, const Similarity& frame, std::span<const ReferenceHead> references)
-    : head_(head), frame_(frame), face_(head.surface, head.parts, frame, head.triangles) {
+    : head_(head),
+      frame_(frame),
+      face_(head.surface, head.parts, frame, head.triangles),
+      piece_of_face_(piece_with_most(head.surface, head.known)) {
+  for (std::size_t eye = 0; eye < 2; ++eye) eyeballs_[eye] = find_eyeball(face_, head.parts, eyeball_role(eye));
   for (const FeaturePoint& point : head.known) {
     settled_[point.id.value()] = frame(glm::dvec3(point.position));
     if (!point.vertex) continue;
@@ -94,13 +112,54 @@ void Draft::find_mirror_plane() {
   plane_ = refine_mirror_plane(fit_mirror_plane(pairs, middle), pairs, middle, thinned(front, compared), front);
 }
 
+/// The mirror image of the known partner of a point. That of a point of an eye is moved and scaled with the eyeball
+/// where one eye is higher than the other, nearer to the nose or larger.
+glm::dvec3 Draft::mirror_image(std::size_t id) const {
+  const glm::dvec3 image = plane_.image(*settled_[mirror_of(id)]);
+  if (group_of(id_of(id)) != 3) return image;
+  const bool is_left = mpeg4::feature_points[id].side == mpeg4::Side::left;
+  const auto& own = eyeballs_[is_left ? 0 : 1];
+  const auto& other = eyeballs_[is_left ? 1 : 0];
+  if (!own || !other) return image;
+  const glm::dvec3 mirrored = plane_.image(other->center);
+  const double scale = own->radius / other->radius;
+  const double off = glm::distance(own->center, mirrored) + std::abs(own->radius - other->radius);
+  if (off < least_off_mirror || off > most_off_mirror) return image;
+  return own->center + scale * (image - mirrored);
+}
+
+/// The piece of the surface of the known point whose mirror image a proposal is, if it has a vertex.
+std::optional<PartId> Draft::piece_of_partner(std::size_t id) const {
+  const FeaturePoint* const partner = images_[id] ? find_point(head_.known, id_of(mirror_of(id))) : nullptr;
+  if (partner == nullptr || !partner->vertex) return std::nullopt;
+  return head_.surface.part_of[head_.surface.surface_of[partner->vertex->value()].value()];
+}
+
+/// Whether a vertex is on the face, or on a lid that is a piece of its own, as the point is whose mirror image it is to
+/// be, which is on the piece `partner`.
+bool Draft::is_on_piece_of_image(PartId partner, std::uint32_t vertex) const {
+  return (head_.surface.part_of[vertex] == piece_of_face_) == (partner == piece_of_face_);
+}
+
+bool Draft::is_on_lid_of_image(std::size_t id, std::uint32_t vertex) const {
+  const std::optional<PartId> partner = piece_of_partner(id);
+  return partner && *partner != piece_of_face_ && is_on_piece_of_image(*partner, vertex);
+}
+
+/// Whether one lid of an eye is a piece of its own and the other is not, as those of the other eye show.
+bool Draft::are_apart(const mpeg4::Opening& lids) const {
+  const auto upper = piece_of_partner(index_of(lids.upper.front()));
+  const auto lower = piece_of_partner(index_of(lids.lower.front()));
+  return upper && lower && *upper != *lower;
+}
+
 void Draft::guess(std::span<const ReferenceHead> references) {
   std::vector<KnownPlace> samples;
   for (std::size_t id = 0; id < feature_point_count; ++id) {
     if (settled_[id]) {
       samples.push_back({id_of(id), *settled_[id], marking_noise});
     } else if (settled_[mirror_of(id)]) {
-      images_[id] = plane_.image(*settled_[mirror_of(id)]);
+      images_[id] = mirror_image(id);
       samples.push_back({id_of(id), *images_[id], mirror_noise});
     }
   }
@@ -143,6 +202,13 @@ std::optional<RimVertex> Draft::nearest_vertex(std::size_t id, PartRole role, co
   // that leaves nothing near the place is that of a misplaced point, which the doctor names.
   const OrderBounds bounds = order_bounds(id_of(id), settled_);
   const auto is_in_order = [&](std::uint32_t v) { return is_free(v) && bounds.contains(face_.at(v)); };
+  const std::optional<PartId> partner = piece_of_partner(id);
+  if (partner && rim.opening != nullptr && are_apart(*rim.opening)) {  // not on the other lid
+    auto on_piece = nearest([&](std::uint32_t v) {
+      return is_in_order(v) && face_.faces_forward_at(v) && is_on_piece_of_image(*partner, v);
+    });
+    if (on_piece && is_near(face_.at(on_piece->vertex), place, error)) return on_piece;
+  }
   if (is_on_front(id_of(id))) {  // not on the inner wall of a double surface
     auto outer = nearest([&](std::uint32_t v) { return is_in_order(v) && face_.faces_forward_at(v); });
     if (outer && is_near(face_.at(outer->vertex), place, error)) return outer;

@@ -15,6 +15,7 @@
 #include "core/anatomy/reference_heads.h"
 #include "core/anatomy/rim_points.h"
 #include "core/geometry/similarity.h"
+#include "core/geometry/sphere_fit.h"
 #include "core/geometry/surface.h"
 #include "core/propose/face_surface.h"
 #include "core/propose/proportion_guess.h"
@@ -70,6 +71,8 @@ class Draft {
   [[nodiscard]] bool has_image(std::size_t id) const { return images_[id].has_value(); }
   [[nodiscard]] const glm::dvec3& expected(std::size_t id) const;
   [[nodiscard]] double error(std::size_t id) const { return guesses_[id]->error; }
+  /// Whether a vertex lies on a lid that is a piece of its own, as the known point does whose mirror image it is to be.
+  [[nodiscard]] bool is_on_lid_of_image(std::size_t id, std::uint32_t vertex) const;
   /// `mirror` or `proportion`.
   [[nodiscard]] ProposalMethod method(std::size_t id) const;
 
@@ -106,11 +109,17 @@ class Draft {
   void find_mirror_plane();
   void guess(std::span<const ReferenceHead> references);
   [[nodiscard]] const Proposal* find_proposal(std::size_t id) const;
+  [[nodiscard]] glm::dvec3 mirror_image(std::size_t id) const;
+  [[nodiscard]] std::optional<PartId> piece_of_partner(std::size_t id) const;
+  [[nodiscard]] bool is_on_piece_of_image(PartId partner, std::uint32_t vertex) const;
+  [[nodiscard]] bool are_apart(const mpeg4::Opening& lids) const;
 
   HeadToMark head_;
   Similarity frame_;
   FaceSurface face_;
+  PartId piece_of_face_;  ///< of the surface
   MirrorPlane plane_;
+  std::array<std::optional<Sphere>, 2> eyeballs_;  ///< of the left and the right eye
   Places settled_;
   std::unordered_set<std::uint32_t> taken_;  ///< vertices with a point
   std::vector<SurfacePoint> anchors_;        ///< the known points, and those proposed on open skin

@@ -7,8 +7,6 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/geometry/sphere_fit.h"
-
 namespace semblante {
 namespace {
 
@@ -17,8 +15,9 @@ constexpr double beside = 0.03;     ///< maximum distance from the pupil expecte
 constexpr double believable = 0.2;  ///< maximum distance from the pupil expected by proportions
 constexpr double cornea = 0.12;     ///< radius of the cornea seen from the front
 
-/// The eyeball's sphere, fitted to the largest part with the role.
-std::optional<Sphere> ball_of(const FaceSurface& face, std::span<const Part> parts, PartRole eye) {
+}  // namespace
+
+std::optional<Sphere> find_eyeball(const FaceSurface& face, std::span<const Part> parts, PartRole eye) {
   std::optional<std::uint32_t> largest;
   for (std::uint32_t p = 0; p < parts.size(); ++p) {
     if (parts[p].role == eye && (!largest || parts[p].vertex_count > parts[*largest].vertex_count)) largest = p;
@@ -31,10 +30,8 @@ std::optional<Sphere> ball_of(const FaceSurface& face, std::span<const Part> par
   return ball && ball->rms_error < roundness * ball->radius ? ball : std::nullopt;
 }
 
-}  // namespace
-
 glm::dvec3 find_pupil(const FaceSurface& face, std::span<const Part> parts, PartRole eye, const glm::dvec3& guess) {
-  if (const std::optional<Sphere> ball = ball_of(face, parts, eye)) {
+  if (const std::optional<Sphere> ball = find_eyeball(face, parts, eye)) {
     const auto off_axis = [&](std::uint32_t v) {
       return std::hypot(face.at(v).x - ball->center.x, face.at(v).y - ball->center.y);
     };

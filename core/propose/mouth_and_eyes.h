@@ -7,10 +7,15 @@
 #include <glm/vec3.hpp>
 
 #include "core/anatomy/mirror_plane.h"
+#include "core/geometry/sphere_fit.h"
 #include "core/propose/face_surface.h"
 #include "core/types/rig.h"
 
 namespace semblante {
+
+/// The sphere of an eyeball, fitted to the largest part with the role; empty without such a part, or if it is not
+/// round.
+std::optional<Sphere> find_eyeball(const FaceSurface& face, std::span<const Part> parts, PartRole eye);
 
 /// The pupil of a neutral eye: the frontmost point on the axis of its eyeball. Without a ball (a disc as iris, an eye
 /// painted on the skin) the position of the vertex at `guess`, if any, else `guess`.

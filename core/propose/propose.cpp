@@ -93,7 +93,9 @@ void propose_on_surface(Draft& draft, std::size_t id, const glm::dvec3& place) {
                                 ? "the surface has no free vertex that fits this point at its expected position"
                                 : "the model has no surface at the expected position");
   }
-  draft.settle(id, {at, nearest->vertex}, draft.method(id), error_at(at), nearest->doubt);
+  // A lid of its own is an upper or a lower lid as its mirror image is.
+  const std::string doubt = draft.is_on_lid_of_image(id, nearest->vertex) ? "" : nearest->doubt;
+  draft.settle(id, {at, nearest->vertex}, draft.method(id), error_at(at), doubt);
 }
 
 /// `head_joint`: in the frame of the draft.

@@ -102,6 +102,34 @@ TEST_F(CartoonHead, PointsOnAPart_BeatItsName) {
   EXPECT_EQ(describe_parts(model_, surface_, points)[1].role, PartRole::left_eye);
 }
 
+// The shell about the right eye has the place and size of an eyeball.
+TEST_F(CartoonHead, ALidOfItsOwnWithoutAPoint_GoesWithItsMirrorImage) {
+  with_names_ = false;
+  const auto add_shell = [&](float x) {
+    Model shell = testing::make_ball({x, 4, -1.2F}, 1.4F);
+    std::erase_if(shell.triangles, [&](const Triangle& t) {
+      return std::any_of(t.begin(), t.end(), [&](std::uint32_t v) { return shell.positions[v].y < 3.6F; });
+    });
+    shell.primitives.front().triangle_count = static_cast<std::uint32_t>(shell.triangles.size());
+    return add(shell, "");
+  };
+  const std::uint32_t left = add_shell(3);
+  add_shell(-3);
+  add_all();
+  FeaturePointSet points = face_points();
+  std::erase_if(points, [](const FeaturePoint& p) { return to_string(p.id) == "3.1" || to_string(p.id) == "3.2"; });
+  points.push_back(testing::points_at(model_, {{"3.1", left}}).front());
+  const auto role_at = [&](float x) {
+    for (const Part& part : describe_parts(model_, surface_, points)) {
+      const bool is_shell = part.triangle_count > 0 && part.box_max.y > 5.35F && part.box_max.y < 5.45F;
+      if (is_shell && part.box_min.x < x && part.box_max.x > x) return part.role;
+    }
+    return PartRole::rest;
+  };
+  EXPECT_EQ(role_at(3), PartRole::skin);
+  EXPECT_EQ(role_at(-3), PartRole::skin);
+}
+
 TEST_F(CartoonHead, RoleByUser_BeatsEverything) {
   const std::uint32_t ball = add(testing::make_ball({3, 4, -1.2F}, 1.3F), "EyeLeft");
   surface_ = build_surface(model_);
@@ -418,6 +446,13 @@ TEST(RoleByName, NamesInUse_SayWhatTheySay) {
     guess_roles_by_name(shapes, roles);
     EXPECT_EQ(roles[1], role) << name;
   }
+}
+
+TEST(RoleByName, ALid_IsToldFromOtherWordsWithItsLetters) {
+  for (const char* const name : {"upper lids", "EyelidLeft", "Eye_Lid_R", "Lid"})
+    EXPECT_TRUE(is_lid_name(name)) << name;
+  for (const char* const name : {"eyelashes", "Solid", "slider", "collider", ""})
+    EXPECT_FALSE(is_lid_name(name)) << name;
 }
 
 TEST(RoleByName, OneNameOnBothSides_IsOfTheEyeWhereItLies) {

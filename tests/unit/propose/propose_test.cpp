@@ -9,6 +9,7 @@
 
 #include "core/anatomy/lid_edge.h"
 #include "core/anatomy/part_roles.h"
+#include "core/anatomy/point_lookup.h"
 #include "core/geometry/surface.h"
 #include "core/propose/quick_set.h"
 #include "tests/support/meshes.h"
@@ -109,6 +110,17 @@ TEST_F(Propose, NamesTheWayAndTheVertex) {
   EXPECT_FALSE(find(*proposals, fp("7.1"))->point.vertex);
 }
 
+TEST_F(Propose, PutsTheEdgeOfALid_OnTheLidThatIsAPartOfItsOwn) {
+  const auto proposals = propose(some(quick_set));
+  ASSERT_TRUE(proposals);
+  const Proposal* const lid = find(*proposals, fp("3.2"));
+  ASSERT_NE(lid, nullptr);
+  const FeaturePoint& placed = *find_point(all_, "3.2");
+  ASSERT_NE(surface_.part_of[surface_.surface_of[placed.vertex->value()].value()], PartId(0));
+  EXPECT_LT(glm::distance(lid->point.position, placed.position), 0.01F * 0.064F);
+  EXPECT_EQ(lid->confidence, Confidence::high) << lid->remark;
+}
+
 // On a coarse mesh the most prominent vertex near the chin may be one of the lower lip.
 TEST_F(Propose, PutsTheBossOfTheChinBelowTheLowerLip) {
   FeaturePointSet known = some(quick_set);
@@ -154,6 +166,31 @@ TEST_F(Propose, PutsLidsOnTheirEdges_OfAnEyeThatIsHigherThanTheOther) {
     const Proposal* const lid = find(*proposals, fp(name));
     ASSERT_NE(lid, nullptr);
     EXPECT_LT(std::abs(lid->point.position.y - point(name).position.y), 0.25 * open) << name;
+  }
+}
+
+// The mirror images of the left eye's points lie beside the right eye.
+TEST_F(Propose, FollowsTheEyeball_OfAnEyeThatIsLowerAndNearerToTheNose) {
+  const auto point = [&](const char* name) -> FeaturePoint& {
+    return *std::find_if(all_.begin(), all_.end(), [&](const FeaturePoint& p) { return p.id == fp(name); });
+  };
+  const double unit = glm::distance(point("3.5").position, point("3.6").position);
+  const glm::dvec3 eye(point("3.6").position);
+  for (glm::vec3& p : model_.positions) {
+    const double off = glm::length(glm::dvec2(p) - glm::dvec2(eye)) / unit;
+    const double share = std::exp(-3.0 * off * off * off * off);
+    p += glm::vec3(share * unit * glm::dvec3(0.07, -0.16, 0.0));
+  }
+  for (FeaturePoint& p : all_) {
+    if (p.vertex) p.position = model_.positions[p.vertex->value()];
+  }
+  surface_ = build_surface(model_);
+  const auto proposals = propose(some(quick_set));
+  ASSERT_TRUE(proposals);
+  for (const char* const name : {"3.2", "3.4", "3.8", "3.10"}) {
+    const Proposal* const lid = find(*proposals, fp(name));
+    ASSERT_NE(lid, nullptr) << name;
+    EXPECT_LT(glm::distance(lid->point.position, point(name).position), 0.08 * unit) << name;
   }
 }
 
