@@ -1,13 +1,17 @@
 // Textures of heads. The input is images, each after its length in three bytes, big-endian: one reader has them all, as
-// that of a file does.
+// that of a file does. Each is decoded, and gives its opacity to the one before it.
 
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
+#include <optional>
+#include <utility>
 
 #include "core/import/image_reader.h"
 #include "core/import/image_size.h"
 #include "core/import/image_type.h"
+#include "core/import/opacity_image.h"
+#include "core/import/pixels.h"
 
 using namespace semblante;
 
@@ -16,9 +20,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   limits.max_image_bytes = std::size_t{1} << 16U;
   limits.max_image_side = 256;
   limits.max_image_pixels = std::size_t{64} * 64;
-  limits.max_decoded_pixels = 2 * limits.max_image_pixels;
+  limits.max_decoded_pixels = 4 * limits.max_image_pixels;
   import::ImageReader reader(limits);
   constexpr std::size_t length_bytes = 3;
+  std::optional<import::Pixels> color;
   while (size >= length_bytes) {
     const std::size_t length = std::min<std::size_t>(data[0] << 16U | data[1] << 8U | data[2], size - length_bytes);
     const auto image = reader.read({data + length_bytes, data + length_bytes + length});
@@ -34,6 +39,16 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto declared = import::declared_size(image->bytes);
     if (!declared || declared->pixels() == 0) std::abort();
     if (std::max(declared->width, declared->height) > limits.max_image_side) std::abort();
+    auto pixels = reader.decode(*image);
+    if (!pixels) {
+      if (pixels.error().message.empty()) std::abort();
+      continue;
+    }
+    if (pixels->rgba.size() != declared->pixels() * import::Pixels::channels) std::abort();
+    if (const auto made = import::with_opacity(color ? &*color : nullptr, *pixels)) {
+      if (import::image_type(made->image.bytes) != "image/png") std::abort();
+    }
+    color = std::move(*pixels);
   }
   return 0;
 }
