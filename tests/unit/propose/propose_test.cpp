@@ -36,6 +36,23 @@ class Propose : public ::testing::Test {
   [[nodiscard]] Result<Proposals> propose(const FeaturePointSet& known) const {
     return propose_feature_points(surface_, describe_parts(model_, surface_, known), known);
   }
+  [[nodiscard]] FeaturePoint& point(const char* name) {
+    return *std::find_if(all_.begin(), all_.end(), [&](const FeaturePoint& p) { return p.id == fp(name); });
+  }
+  [[nodiscard]] double eye_distance() { return glm::distance(point("3.5").position, point("3.6").position); }
+  /// With the face about it and its points but the bare positions. `by`: in distances between the eyes.
+  void move_right_eye(const glm::dvec3& by) {
+    const double unit = eye_distance();
+    const glm::dvec3 eye(point("3.6").position);
+    for (glm::vec3& p : model_.positions) {
+      const double off = glm::length(glm::dvec2(p) - glm::dvec2(eye)) / unit;
+      p += glm::vec3(std::exp(-3.0 * off * off * off * off) * unit * by);
+    }
+    for (FeaturePoint& p : all_) {
+      if (p.vertex) p.position = model_.positions[p.vertex->value()];
+    }
+    surface_ = build_surface(model_);
+  }
 
   Model model_;
   Surface surface_;
@@ -144,19 +161,7 @@ TEST_F(Propose, PutsTheBossOfTheChinBelowTheLowerLip) {
 
 // The mirror image of the left lower lid's middle lies on the fold below the right lower lid.
 TEST_F(Propose, PutsLidsOnTheirEdges_OfAnEyeThatIsHigherThanTheOther) {
-  const auto point = [&](const char* name) -> FeaturePoint& {
-    return *std::find_if(all_.begin(), all_.end(), [&](const FeaturePoint& p) { return p.id == fp(name); });
-  };
-  const double unit = glm::distance(point("3.5").position, point("3.6").position);
-  const glm::dvec3 eye(point("3.6").position);
-  for (glm::vec3& p : model_.positions) {
-    const double off = glm::length(glm::dvec2(p) - glm::dvec2(eye)) / unit;
-    p.y += static_cast<float>(0.09 * unit * std::exp(-3.0 * off * off * off * off));
-  }
-  for (FeaturePoint& p : all_) {
-    if (p.vertex) p.position = model_.positions[p.vertex->value()];
-  }
-  surface_ = build_surface(model_);
+  move_right_eye({0.0, 0.09, 0.0});
   const FeaturePointSet known = some(quick_set);
   const auto proposals = propose_feature_points(surface_, describe_parts(model_, surface_, known), known,
                                                 reference_heads(), {}, model_.triangles);
@@ -171,26 +176,13 @@ TEST_F(Propose, PutsLidsOnTheirEdges_OfAnEyeThatIsHigherThanTheOther) {
 
 // The mirror images of the left eye's points lie beside the right eye.
 TEST_F(Propose, FollowsTheEyeball_OfAnEyeThatIsLowerAndNearerToTheNose) {
-  const auto point = [&](const char* name) -> FeaturePoint& {
-    return *std::find_if(all_.begin(), all_.end(), [&](const FeaturePoint& p) { return p.id == fp(name); });
-  };
-  const double unit = glm::distance(point("3.5").position, point("3.6").position);
-  const glm::dvec3 eye(point("3.6").position);
-  for (glm::vec3& p : model_.positions) {
-    const double off = glm::length(glm::dvec2(p) - glm::dvec2(eye)) / unit;
-    const double share = std::exp(-3.0 * off * off * off * off);
-    p += glm::vec3(share * unit * glm::dvec3(0.07, -0.16, 0.0));
-  }
-  for (FeaturePoint& p : all_) {
-    if (p.vertex) p.position = model_.positions[p.vertex->value()];
-  }
-  surface_ = build_surface(model_);
+  move_right_eye({0.07, -0.16, 0.0});
   const auto proposals = propose(some(quick_set));
   ASSERT_TRUE(proposals);
   for (const char* const name : {"3.2", "3.4", "3.8", "3.10"}) {
     const Proposal* const lid = find(*proposals, fp(name));
     ASSERT_NE(lid, nullptr) << name;
-    EXPECT_LT(glm::distance(lid->point.position, point(name).position), 0.08 * unit) << name;
+    EXPECT_LT(glm::distance(lid->point.position, point(name).position), 0.08 * eye_distance()) << name;
   }
 }
 
