@@ -8,7 +8,13 @@ public final class Head extends Owner {
 
     /** From the bytes of mesh.drc, weights and rig.json of one package. */
     public Head(byte[] meshDrc, byte[] weights, byte[] rigJson) {
-        super(Native.headCreate(Objects.requireNonNull(meshDrc), Objects.requireNonNull(weights), Objects.requireNonNull(rigJson), false));
+        this(meshDrc, weights, rigJson, false);
+    }
+
+    /** {@code jawTakesLip}: FAP 3 alone takes the lower lip along, as on a human face; in the standard it does not. */
+    public Head(byte[] meshDrc, byte[] weights, byte[] rigJson, boolean jawTakesLip) {
+        super(Native.headCreate(Objects.requireNonNull(meshDrc), Objects.requireNonNull(weights), Objects.requireNonNull(rigJson),
+                jawTakesLip));
         vertexCount = Native.headVertexCount(handle());
     }
 

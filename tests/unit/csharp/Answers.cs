@@ -36,7 +36,7 @@ static unsafe class Answers {
                 return Marshal.SizeOf(typeof(Semblante.Frame).Assembly.GetType(words[1], true)).ToString();
             case "head":
                 head = new Head(File.ReadAllBytes(words[1] + "/mesh.drc"), File.ReadAllBytes(words[1] + "/weights"),
-                                File.ReadAllBytes(words[1] + "/rig.json"));
+                                File.ReadAllBytes(words[1] + "/rig.json"), words.Length > 2);
                 return head.VertexCount + " " + head.Triangles().Length;
             case "fap":
                 frame = new Frame();

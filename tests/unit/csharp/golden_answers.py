@@ -47,11 +47,15 @@ class GoldenAnswers:
 
     def test_a_head_moves_as_it_does_in_python(self):
         import semblante
-        head = semblante.Head(*((VECTORS / "face" / name).read_bytes() for name in ("mesh.drc", "weights", "rig.json")))
-        self.assertEqual(self.numbers("head", VECTORS / "face"), [head.vertex_count, 3 * len(head.triangles.tolist())])
-        head.set_frame(semblante.frame({3: 200}))
-        moved = [x for row in head.positions().tolist() for x in row]
-        self.assertEqual(self.numbers("fap", 3, 200), moved)
+        package = [(VECTORS / "face_colored" / name).read_bytes() for name in ("mesh.drc", "weights", "rig.json")]
+        moved = []
+        for choice in ([], ["jaw_takes_lip"]):
+            head = semblante.Head(*package, jaw_takes_lip=bool(choice))
+            self.assertEqual(self.numbers("head", VECTORS / "face_colored", *choice), [head.vertex_count, 3 * len(head.triangles.tolist())])
+            head.set_frame(semblante.frame({3: 200}))
+            moved.append([x for row in head.positions().tolist() for x in row])
+            self.assertEqual(self.numbers("fap", 3, 200), moved[-1])
+        self.assertTrue(moved[0] != moved[1])
 
     def test_the_colors_of_a_head_are_those_of_python(self):
         import semblante

@@ -78,7 +78,8 @@ final class Answers {
         switch (words[0]) {
             case "head":
                 if (head != null) head.close();
-                head = new Head(read(words[1] + "/mesh.drc"), read(words[1] + "/weights"), read(words[1] + "/rig.json"));
+                head = new Head(read(words[1] + "/mesh.drc"), read(words[1] + "/weights"), read(words[1] + "/rig.json"),
+                        words.length > 2);
                 return head.vertexCount + " " + head.triangles().length;
             case "fap":
                 head.setFrame(new Frame().setFap(Integer.parseInt(words[1]), Float.parseFloat(words[2])));
