@@ -128,15 +128,15 @@ glm::dvec3 Draft::mirror_image(std::size_t id) const {
   return own->center + scale * (image - mirrored);
 }
 
-/// The piece of the surface of the known point whose mirror image a proposal is, if it has a vertex.
+/// The piece of the surface on which the known point lies whose mirror image is to be placed; empty without a vertex.
 std::optional<PartId> Draft::piece_of_partner(std::size_t id) const {
   const FeaturePoint* const partner = images_[id] ? find_point(head_.known, id_of(mirror_of(id))) : nullptr;
   if (partner == nullptr || !partner->vertex) return std::nullopt;
   return head_.surface.part_of[head_.surface.surface_of[partner->vertex->value()].value()];
 }
 
-/// Whether a vertex is on the face, or on a lid that is a piece of its own, as the point is whose mirror image it is to
-/// be, which is on the piece `partner`.
+/// Whether a vertex agrees with `partner`, the piece of the known point whose mirror image is to be placed: both are
+/// the piece of the face, or both are others, such as lids.
 bool Draft::is_on_piece_of_image(PartId partner, std::uint32_t vertex) const {
   return (head_.surface.part_of[vertex] == piece_of_face_) == (partner == piece_of_face_);
 }

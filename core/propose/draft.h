@@ -71,7 +71,7 @@ class Draft {
   [[nodiscard]] bool has_image(std::size_t id) const { return images_[id].has_value(); }
   [[nodiscard]] const glm::dvec3& expected(std::size_t id) const;
   [[nodiscard]] double error(std::size_t id) const { return guesses_[id]->error; }
-  /// Whether a vertex lies on a lid that is a piece of its own, as the known point does whose mirror image it is to be.
+  /// Whether a vertex and the known point whose mirror image it is to be both lie on lids that are pieces of their own.
   [[nodiscard]] bool is_on_lid_of_image(std::size_t id, std::uint32_t vertex) const;
   /// `mirror` or `proportion`.
   [[nodiscard]] ProposalMethod method(std::size_t id) const;
