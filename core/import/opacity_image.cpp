@@ -39,16 +39,15 @@ std::optional<OpacityImage> with_opacity(const Pixels* color, const Pixels& opac
   const Pixels fitted = resized(opacity, width, height);
   Pixels made = color != nullptr ? resized(*color, width, height)
                                  : Pixels{width, height, std::vector<std::uint8_t>(fitted.rgba.size(), 255)};
-  std::size_t seen = 0, partial = 0, clear = 0;
+  std::size_t clear = 0, opaque = 0;
   for (std::size_t i = 0; i < made.rgba.size(); i += Pixels::channels) {
     const std::uint8_t alpha = is_alpha ? fitted.rgba[i + 3] : brightness(&fitted.rgba[i]);
     made.rgba[i + 3] = alpha;
-    if (alpha < nearly_clear)
-      ++clear;
-    else
-      ++seen;
-    if (alpha >= nearly_clear && alpha < nearly_opaque) ++partial;
+    if (alpha < nearly_clear) ++clear;
+    if (alpha >= nearly_opaque) ++opaque;
   }
+  const std::size_t seen = made.rgba.size() / Pixels::channels - clear;
+  const std::size_t partial = seen - opaque;
   if (clear == 0 && partial == 0) return std::nullopt;
   const bool is_soft = static_cast<double>(partial) > much * static_cast<double>(seen);
   return OpacityImage{{"image/png", encode_png(made.rgba, width, height, static_cast<int>(Pixels::channels))},

@@ -27,7 +27,7 @@ float full_light(std::span<const glm::vec3> given, ColorNumbers numbers);
 
 enum class ColorSpace : std::uint8_t { srgb, linear };
 
-/// Appends the colours; one that is none is white, numbers out of range are clamped.
+/// Appends the colours. What is no colour (is_color()) becomes white; components out of range are clamped.
 void append_colors(std::span<const glm::vec3> given, float full, ColorSpace space, std::vector<Color8>& to);
 
 /// The warning about colours that were given but are none.

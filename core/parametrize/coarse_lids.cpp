@@ -35,8 +35,8 @@ constexpr double depth_in_ball = 0.005;
 /// Of all places in all poses, the share in the ball from which on lids are coarse. It is 0 on heads of five
 /// thousand vertices and more, 0.0007 to 0.009 on the same heads of 3000 to 600 and on others of few vertices.
 constexpr double least_cut = 0.0002;
-/// A triangle with shorter edges, which a closing lid may double, does not reach from its vertices into the ball: they
-/// keep clear of it by more (lids.c).
+/// Triangles whose edges are all shorter cannot reach into the ball, even if a closing lid doubles the edges: their
+/// vertices keep a greater distance from the ball (lids.c).
 constexpr double long_edge = 0.2;
 /// The lifts that are tried: multiples of `step`.
 constexpr int steps = 10;

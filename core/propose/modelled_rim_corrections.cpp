@@ -116,7 +116,8 @@ class RimMover {
            find_modelled_eyes(head.surface, head.triangles, head.parts, points)[eye_];
   }
 
-  /// A proposed pupil, which was beside the middle of an eye whose lids were elsewhere: to its middle.
+  /// Moves a proposed pupil to the middle of the eye, if it lies beside it: it was proposed from lids that were
+  /// elsewhere.
   void center_pupil() {
     const std::size_t id = index_of(eye_ == 0 ? "3.5" : "3.6");
     if (!draft_.is_proposed(id)) return;

@@ -171,7 +171,7 @@ export class FaceRenderer implements GraphicsUser {
       if (mesh.colors) this.attribute(program, 'srgb', mesh.colors, 3);
       this.attribute(program, 'faceRow', rowsOfVertices, 2);
     }
-    // Of all vertices of meshes without colours: it belongs to the context.
+    // A mesh without colours is white. The value belongs to the context, not to the vertex array.
     gl.vertexAttrib3f(gl.getAttribLocation(this.graphics.program.program, 'srgb'), 1, 1, 1);
     this.fill(gl.ELEMENT_ARRAY_BUFFER, mesh.indices);
     gl.bindVertexArray(null);
