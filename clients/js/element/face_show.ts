@@ -75,9 +75,6 @@ export class FaceShow extends Emitter<ShowEvents> {
   /** Pictures drawn in the last second in which the face moved. */
   framesPerSecond = 0;
 
-  private source: Source;
-  private asksSound: boolean;
-  private offersVoice: boolean;
   private sound: StreamSound | null = null;
   private speech: StreamSpeech | null = null;
   private captions: StreamCaptions | null = null;
@@ -112,14 +109,11 @@ export class FaceShow extends Emitter<ShowEvents> {
   /** Throws FaceTrouble where WebGL 2 is missing. */
   constructor(
     private readonly stage: HTMLElement,
-    private readonly options: ShowOptions,
+    private options: ShowOptions,
   ) {
     super();
     this.page = stage.ownerDocument;
     this.window = this.page.defaultView!;
-    this.source = options.source;
-    this.asksSound = options.sound;
-    this.offersVoice = options.voice;
     this.paused = options.paused;
     this.budget = budgetOf(thisDevice((graphicsName ??= rendererName())), options.quality);
     this.render = this.budget.render;
@@ -146,7 +140,7 @@ export class FaceShow extends Emitter<ShowEvents> {
   }
 
   private follow(): Link {
-    const link = new Link(this.source, this.asksSound);
+    const link = new Link(this.options.source, this.options.sound);
     link.client.on('header', () => this.emit('sound', undefined));
     this.player.follow(link.client);
     link.on('state', () => this.takeLink());
@@ -164,7 +158,7 @@ export class FaceShow extends Emitter<ShowEvents> {
     this.link = this.follow();
     this.link.open();
     const begin = (start: Promise<void>): void => void start.catch(() => this.emit('sound', undefined));
-    if (isHeard && this.asksSound) begin(this.setSound(true));
+    if (isHeard && this.options.sound) begin(this.setSound(true));
     if (isSpeaking) begin(this.setVoice(true));
     if (captions?.isOn) begin(this.setCaptions(true, this.roomBelow));
     this.emit('sound', undefined);
@@ -173,21 +167,23 @@ export class FaceShow extends Emitter<ShowEvents> {
 
   /** A face that is drawn stays, whatever the server says to the other token. */
   setToken(token: string | null): void {
-    this.source = this.images.source = { ...this.source, token };
+    const source = { ...this.options.source, token };
+    this.options = { ...this.options, source };
+    this.images.source = source;
     this.followAgain();
     this.retry(0);
   }
 
   /** Whether the sound is asked for: servers are told when a connection begins. */
   askSound(asks: boolean): void {
-    if (asks === this.asksSound) return;
-    this.asksSound = asks;
+    if (asks === this.options.sound) return;
+    this.options = { ...this.options, sound: asks };
     this.followAgain();
   }
 
   /** Whether the browser's own voice may speak, after `setVoice`. */
   offerVoice(offers: boolean): void {
-    this.offersVoice = offers;
+    this.options = { ...this.options, voice: offers };
     if (!offers) this.speech?.stop();
     this.emit('sound', undefined);
   }
@@ -227,7 +223,7 @@ export class FaceShow extends Emitter<ShowEvents> {
 
   /** Whether the browser has a voice, as far as is known: `setVoice` finds out. */
   get hasVoice(): boolean {
-    return this.offersVoice && typeof speechSynthesis === 'object' && this.speech?.state !== 'failed';
+    return this.options.voice && typeof speechSynthesis === 'object' && this.speech?.state !== 'failed';
   }
 
   get isSpeaking(): boolean {
@@ -267,6 +263,7 @@ export class FaceShow extends Emitter<ShowEvents> {
   }
 
   setFit(fit: Fit): void {
+    this.options = { ...this.options, fit };
     if (this.face) this.camera.subject = frameOf(this.face.rig, fit);
     this.invalidate();
   }
@@ -300,7 +297,7 @@ export class FaceShow extends Emitter<ShowEvents> {
 
   private async load(): Promise<void> {
     const { signal } = this.work;
-    const { source } = this;
+    const { source } = this.options;
     const libraries = { draco: loadDraco(), runtime: loadRuntime() };
     try {
       const model = await modelOf(source, signal);
@@ -309,7 +306,7 @@ export class FaceShow extends Emitter<ShowEvents> {
         const face = await faceOf(source, model, libraries, level, this.images, signal);
         const wanted = firstImages(face.rig.images, this.paused).map(({ sha256 }) => this.images.get(sha256));
         await Promise.race([Promise.allSettled(wanted), new Promise((wake) => setTimeout(wake, imagePatience))]);
-        if (signal.aborted || source !== this.source) return;
+        if (signal.aborted || source !== this.options.source) return;
         const kernel = new Kernel(await libraries.runtime, face, { withVertices: false });
         this.kernel?.dispose();
         this.model = model;
@@ -319,13 +316,13 @@ export class FaceShow extends Emitter<ShowEvents> {
         this.player.show(kernel);
         this.emit('ready', undefined);
       }
-      if (source !== this.source) return;
+      if (source !== this.options.source) return;
       this.attempts = 0;
       this.setTrouble(null);
       this.settle();
       if (this.link.state === 'ended') this.link.open();
     } catch (error) {
-      if (signal.aborted || source !== this.source) return; // of a token that was replaced
+      if (signal.aborted || source !== this.options.source) return; // of a token that was replaced
       const cause = error instanceof FaceTrouble ? error : trouble('unreachable');
       this.setTrouble(cause);
       if (isPassing(cause.code)) this.retry(Math.min(longestRetry, firstRetry * 2 ** this.attempts++));
@@ -458,7 +455,7 @@ export class FaceShow extends Emitter<ShowEvents> {
     this.loadingLevel = true;
     try {
       const libraries = { draco: loadDraco(), runtime: loadRuntime() };
-      const face = await faceOf(this.source, this.model, libraries, level, this.images, this.work.signal);
+      const face = await faceOf(this.options.source, this.model, libraries, level, this.images, this.work.signal);
       // The poses are the same for all levels, so the kernel and its player stay.
       this.show(face);
     } catch {
