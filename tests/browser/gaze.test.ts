@@ -1,9 +1,9 @@
-import { readFileSync } from 'node:fs';
 import { expect, test } from 'vitest';
-import { sampleHead, samplePoints } from './support/paths.ts';
-import { eventually } from './support/patience.ts';
+import { EditedGlb } from './support/edit_glb.ts';
+import { sampleHead } from './support/paths.ts';
 import { StudioPage, type Inside } from './support/studio_page.ts';
 import { browser, server, useStudio } from './support/suite.ts';
+import { parametrizeAsSample, uploadHead } from './support/uploads.ts';
 
 type Vector = [number, number, number];
 
@@ -33,47 +33,22 @@ useStudio({ demo: false });
 
 /** The sample head without the materials of its eyes. */
 function withoutIrises(): Uint8Array<ArrayBuffer> {
-  const file = readFileSync(sampleHead);
-  const length = file.readUInt32LE(12);
-  const gltf = JSON.parse(file.toString('utf8', 20, 20 + length)) as {
-    meshes: { name: string; primitives: { material?: number }[] }[];
-  };
+  const head = new EditedGlb(sampleHead);
   let changed = 0;
-  for (const mesh of gltf.meshes.filter(({ name }) => / eye$/.test(name))) {
+  for (const mesh of head.gltf.meshes.filter(({ name }) => / eye$/.test(name))) {
     for (const primitive of mesh.primitives) {
       delete primitive.material;
       changed += 1;
     }
   }
   expect(changed).toBe(2);
-  const text = JSON.stringify(gltf);
-  const json = Buffer.from(text.padEnd(Math.ceil(text.length / 4) * 4));
-  const head = Buffer.alloc(20);
-  file.copy(head, 0, 0, 20);
-  head.writeUInt32LE(file.length - length + json.length, 8);
-  head.writeUInt32LE(json.length, 12);
-  return Buffer.concat([head, json, file.subarray(20 + length)]);
+  return head.bytes();
 }
 
 async function upload(): Promise<string> {
-  const post = async (path: string, type: string, body: Uint8Array<ArrayBuffer> | string, method = 'POST'): Promise<unknown> => {
-    const answer = await fetch(`${server.url}/v1/${path}`, { method, headers: { 'Content-Type': type }, body });
-    expect(answer.status, path).toBeLessThan(300);
-    return answer.json();
-  };
-  const { model } = (await post('models?name=eyes&filename=eyes.glb', 'model/gltf-binary', withoutIrises())) as {
-    model: { id: string };
-  };
-  const until = (wanted: string): Promise<void> =>
-    eventually(`the head is ${wanted}`, async () => {
-      const { state } = (await (await fetch(`${server.url}/v1/models/${model.id}`)).json()) as { state: string };
-      return state === wanted;
-    });
-  await until('ready');
-  await post(`models/${model.id}/feature-points`, 'application/json', readFileSync(samplePoints), 'PUT');
-  await post(`models/${model.id}/parametrizations`, 'application/json', '{"weights":"smooth"}');
-  await until('parametrized');
-  return model.id;
+  const id = await uploadHead('eyes', withoutIrises());
+  await parametrizeAsSample(id);
+  return id;
 }
 
 async function leftEye(id: string): Promise<Eye> {
