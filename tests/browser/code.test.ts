@@ -21,7 +21,7 @@ symlinkSync(join(root, 'clients/runtime'), join(folder, 'include/semblante'));
 
 /** What a program prints; an error with its output when it fails. */
 const run = (program: string, args: string[], env: Record<string, string> = {}): string =>
-  execFileSync(program, args, { encoding: 'utf8', cwd: folder, env: { ...process.env, ...env }, maxBuffer: 64e6 });
+  execFileSync(program, args, { encoding: 'utf8', cwd: folder, env: { ...process.env, ...env }, maxBuffer: 64e6, stdio: 'pipe' });
 
 interface Frame {
   viseme: { select1: number };
