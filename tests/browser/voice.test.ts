@@ -120,7 +120,7 @@ test('BrowsersVoice_IsSilenced_WhenTheSpeechIsStopped', async () => {
   const { id } = (await (await say('One. Two and three and four and five. Six.')).json()) as { id: string };
   await page.waitForFunction(() => (window as unknown as Inside).said.length >= 1);
   expect((await ask('DELETE', `/v1/streams/talk/performances/${id}`)).status).toBeLessThan(300);
-  await expect.poll(() => got(9)).toBeGreaterThan(1);
+  await expect.poll(() => got(9), { timeout: patience }).toBeGreaterThan(1);
   const said = await page.evaluate(() => (window as unknown as Inside).said.length);
   await page.waitForTimeout(1500);
   expect(await page.evaluate(() => (window as unknown as Inside).said.length)).toBe(said);
@@ -134,9 +134,9 @@ test.each([
   await page.locator('semblante-face').getByRole('button', { name: 'Voice on' }).click();
   await page.locator('semblante-face').getByRole('button', { name: 'Voice off' }).waitFor();
   await say('This is a long sentence that goes on for some time, so that there is enough of it when the voice has failed, and then some more of it comes.');
-  await expect.poll(() => sent(12), { timeout: 15_000 }).toBe(2); // ready, failed
+  await expect.poll(() => sent(12), { timeout: patience }).toBe(2); // ready, failed
   const frames = got(128);
-  await expect.poll(() => got(128), { timeout: 15_000 }).toBeGreaterThan(frames + 5);
+  await expect.poll(() => got(128), { timeout: patience }).toBeGreaterThan(frames + 5);
   expect(await page.evaluate(() => (window as unknown as Inside).said.length)).toBe(texts);
   await page.locator('semblante-face').getByRole('button', { name: /Sound on|No sound/ }).waitFor();
 });
@@ -145,7 +145,7 @@ test('BrowserWithoutVoices_ShowsTheFramesAsBefore', async () => {
   const { page, got, sent } = await open(null);
   expect(await page.locator('semblante-face').getByRole('button', { name: /Voice/ }).count()).toBe(0);
   await say('Good morning to all of you.');
-  await expect.poll(() => got(128), { timeout: 15_000 }).toBeGreaterThan(5);
+  await expect.poll(() => got(128), { timeout: patience }).toBeGreaterThan(5);
   expect(got(13)).toBe(0);
   expect(sent(12)).toBe(0);
 });
