@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -43,6 +45,17 @@ constexpr int steps = 10;
 constexpr double step = 0.06;
 /// A lift of one costs as much as this share of what is cut: lids that stand far out are no better.
 constexpr double price = 0.5;
+
+/// The places on a triangle, as shares of its corners.
+std::vector<glm::dvec3> shares_of_places() {
+  constexpr double of_edge = 1.0 / places_along;
+  std::vector<glm::dvec3> shares;
+  for (int i = 0; i <= places_along; ++i) {
+    for (int j = 0; i + j <= places_along; ++j)
+      shares.emplace_back(i * of_edge, j * of_edge, (places_along - i - j) * of_edge);
+  }
+  return shares;
+}
 
 /// The lids of one eye as a mesh of their own, that takes poses.
 class LidMesh {
@@ -83,14 +96,21 @@ class LidMesh {
   }
 
  private:
-  struct Place {
-    Triangle triangle;
-    double a, b, c;
+  using Corners = std::array<glm::dvec3, 3>;
 
-    [[nodiscard]] glm::dvec3 in(const std::vector<glm::vec3>& at) const {
-      return a * glm::dvec3(at[triangle[0]]) + b * glm::dvec3(at[triangle[1]]) + c * glm::dvec3(at[triangle[2]]);
-    }
+  /// Places on a triangle, as shares of its corners.
+  struct Places {
+    Triangle triangle;
+    std::vector<glm::dvec3> shares;
   };
+
+  static glm::dvec3 place(const glm::dvec3& shares, const Corners& corners) {
+    return shares.x * corners[0] + shares.y * corners[1] + shares.z * corners[2];
+  }
+
+  [[nodiscard]] static Corners corners_of(const Triangle& triangle, const std::vector<glm::vec3>& at) {
+    return {glm::dvec3(at[triangle[0]]), glm::dvec3(at[triangle[1]]), glm::dvec3(at[triangle[2]])};
+  }
 
   std::uint32_t add(const Model& model, const Rig& rig, std::uint32_t file_vertex) {
     const auto points = rig.influence.points_of(file_vertex);
@@ -104,21 +124,18 @@ class LidMesh {
 
   /// Those on the outside of lids: the inside is hidden behind it, and may lie in the ball.
   void find_places_before_ball() {
-    constexpr double of_edge = 1.0 / places_along;
+    const std::vector<glm::dvec3> all = shares_of_places();
     for (const Triangle& triangle : triangles_) {
-      const glm::dvec3 first(rest_[triangle[0]]);
-      const glm::dvec3 outwards = area_vector(first, glm::dvec3(rest_[triangle[1]]), glm::dvec3(rest_[triangle[2]]));
-      if (!(glm::dot(outwards, first - pivot_) > 0.0)) continue;
-      const bool may_cut = has_long_edge(triangle);
-      for (int i = 0; i <= places_along; ++i) {
-        for (int j = 0; i + j <= places_along; ++j) {
-          const Place place{triangle, i * of_edge, j * of_edge, (places_along - i - j) * of_edge};
-          const glm::dvec3 from = place.in(rest_)-pivot_;
-          if (!(from.z > 0.0) || is_in_ball(from, glm::dvec3(lids_.gaze), 0.0)) continue;
-          ++places_before_ball_;
-          if (may_cut) places_.push_back(place);
-        }
+      const Corners corners = corners_of(triangle, rest_);
+      const glm::dvec3 outwards = area_vector(corners[0], corners[1], corners[2]);
+      if (!(glm::dot(outwards, corners[0] - pivot_) > 0.0)) continue;
+      Places before{triangle, {}};
+      for (const glm::dvec3& shares : all) {
+        const glm::dvec3 from = place(shares, corners) - pivot_;
+        if (from.z > 0.0 && !is_in_ball(from, glm::dvec3(lids_.gaze), 0.0)) before.shares.push_back(shares);
       }
+      places_before_ball_ += before.shares.size();
+      if (has_long_edge(triangle)) places_.push_back(std::move(before));
     }
   }
 
@@ -132,6 +149,20 @@ class LidMesh {
   [[nodiscard]] bool is_in_ball(const glm::dvec3& from_pivot, const glm::dvec3& pole, double deep) const {
     const double distance = glm::length(from_pivot) + deep;
     return distance < largest_radius_ && distance < radius_towards(lids_, pole, from_pivot);
+  }
+
+  /// Whether no place of a triangle is in the ball, by the identity |sum a_k v_k|^2 = sum a_k |v_k|^2 -
+  /// sum_{i<j} a_i a_j |v_i - v_j|^2 for shares a of its corners v: the products of shares sum to a third at most.
+  [[nodiscard]] bool is_clear_of_ball(const Corners& corners) const {
+    double nearest = std::numeric_limits<double>::infinity();
+    double longest = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const glm::dvec3 from = corners[k] - pivot_;
+      const glm::dvec3 edge = corners[(k + 1) % 3] - corners[k];
+      nearest = std::min(nearest, glm::dot(from, from));
+      longest = std::max(longest, glm::dot(edge, edge));
+    }
+    return nearest - longest / 3.0 > largest_radius_ * largest_radius_;
   }
 
   [[nodiscard]] std::size_t count_in_ball(const semblante_rig& rig, const std::array<double, 2>& closure,
@@ -151,9 +182,14 @@ class LidMesh {
     const glm::dvec3 g(lids_.gaze);
     const glm::dvec3 pole(g.x, cosine * g.y - sine * g.z, sine * g.y + cosine * g.z);
     const double deep = depth_in_ball * lids_.ball.back();
-    return static_cast<std::size_t>(std::count_if(places_.begin(), places_.end(), [&](const Place& place) {
-      return is_in_ball(place.in(posed)-pivot_, pole, deep);
-    }));
+    std::size_t count = 0;
+    for (const Places& places : places_) {
+      const Corners corners = corners_of(places.triangle, posed);
+      if (is_clear_of_ball(corners)) continue;
+      for (const glm::dvec3& shares : places.shares)
+        count += is_in_ball(place(shares, corners) - pivot_, pole, deep) ? 1 : 0;
+    }
+    return count;
   }
 
   const Lids& lids_;
@@ -164,7 +200,7 @@ class LidMesh {
   double largest_radius_;
   std::vector<Triangle> triangles_;
   std::size_t places_before_ball_ = 0;
-  std::vector<Place> places_;  ///< places before the ball on triangles that are large enough to cut it
+  std::vector<Places> places_;  ///< places before the ball on triangles that are large enough to cut it
   std::vector<glm::vec3> rest_;
   Rig moved_;  ///< what moves the vertices: influence and rigid_of_vertex alone
 };
