@@ -33,11 +33,24 @@ void press_less(std::vector<Displacement>& displacements, float share) {
   }
 }
 
+bool is_by_hand(const Fapu& fapu, FapuUnit unit) {
+  return fapu.origin[static_cast<std::size_t>(unit)] == FapuOrigin::user;
+}
+
 /// `unit` at most `share` of `other`, unless it was given by hand.
 void limit(Fapu& fapu, FapuUnit unit, double share, FapuUnit other) {
   auto& value = fapu.value[static_cast<std::size_t>(unit)];
-  if (!value || !fapu[other] || fapu.origin[static_cast<std::size_t>(unit)] == FapuOrigin::user) return;
+  if (!value || !fapu[other] || is_by_hand(fapu, unit)) return;
   value = std::min(*value, share * *fapu[other]);
+}
+
+/// MNS at least that of people with this mouth or with these eyes, unless it was given by hand.
+void widen_upper_lip(Fapu& fapu) {
+  auto& lip = fapu.value[static_cast<std::size_t>(FapuUnit::mns)];
+  const auto mouth = fapu[FapuUnit::mw];
+  const auto eyes = fapu[FapuUnit::es];
+  if (!lip || !mouth || !eyes || is_by_hand(fapu, FapuUnit::mns)) return;
+  lip = std::max(*lip, std::min(least_lip_of_mouth * *mouth, least_lip_of_eyes * *eyes));
 }
 
 /// Where the set moves both, a follower moves by its share as its leader.
@@ -141,6 +154,7 @@ Fapu units_of_library(const Fapu& fapu) {
   Fapu result = fapu;
   limit(result, FapuUnit::ens, most_nose_of_eyes, FapuUnit::es);
   limit(result, FapuUnit::mns, most_lip_of_mouth, FapuUnit::mw);
+  widen_upper_lip(result);
   return result;
 }
 

@@ -45,12 +45,16 @@ void keep_lids_shut(std::vector<Displacement>& displacements);
 
 /// The units in which a face wears the library's sets, whose values are those of people: a mouth that is far below the
 /// nose but narrow, as at the end of a muzzle, would smile higher than it is wide, and brows above a long muzzle would
-/// fold the forehead. ENS is at most `most_nose_of_eyes` of ES, MNS at most `most_lip_of_mouth` of MW; units given by
-/// hand stay as they are.
+/// fold the forehead; under a nose that hangs to the lip the jaw would hardly open. ENS is at most `most_nose_of_eyes`
+/// of ES, MNS at most `most_lip_of_mouth` of MW and at least the lesser of `least_lip_of_mouth` of MW and
+/// `least_lip_of_eyes` of ES; units given by hand stay as they are.
 Fapu units_of_library(const Fapu& fapu);
 /// The greatest of people: eyes to nose 52 mm for pupils 58 mm apart, nose to mouth 27 mm for a mouth 45 mm wide.
 inline constexpr double most_nose_of_eyes = 0.9;
 inline constexpr double most_lip_of_mouth = 0.6;
+/// The least of people: nose to mouth 17 mm for a mouth 62 mm wide and pupils 74 mm apart.
+inline constexpr double least_lip_of_mouth = 0.27;
+inline constexpr double least_lip_of_eyes = 0.23;
 
 /// The set with its opening of the jaw multiplied by `articulation`, at the points that it moves. FAPU units.
 std::vector<Displacement> articulated(const DisplacementSet& set, double articulation);

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/expressions/contact.h"
 #include "core/expressions/library.h"
 #include "core/extract/named_shapes.h"
 
@@ -45,7 +46,7 @@ std::string with_two_digits(double value) {
 }  // namespace
 
 std::optional<Articulation> own_articulation(const Model& model, const FeaturePointSet& points, const Fapu& fapu) {
-  const auto unit = fapu[FapuUnit::mns];
+  const auto unit = units_of_library(fapu)[FapuUnit::mns];
   const auto upper = vertex_of(points, upper_lip);
   const auto lower = vertex_of(points, lower_lip);
   if (!unit || !upper || !lower) return std::nullopt;

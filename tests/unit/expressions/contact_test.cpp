@@ -211,6 +211,17 @@ TEST(UnitsOfLibrary, OfAMuzzleFollowItsMouthAndEyes) {
   EXPECT_GT(y_of(joy, "2.4"), 0.0F);
 }
 
+/// A witch: her nose hangs so low that its base is just above the lip.
+TEST(UnitsOfLibrary, UnderAHangingNose_OpenTheMouthAsFarAsPeoplesDo) {
+  Fapu fapu;
+  fapu.value = {0.16, 1.0, 0.9, 0.05, 0.8};
+  EXPECT_EQ(units_of_library(fapu)[FapuUnit::mns], least_lip_of_mouth * 0.8);
+  fapu.value[static_cast<std::size_t>(FapuUnit::mw)] = 2.0;  // a frog's mouth: people's eyes say how far it opens
+  EXPECT_EQ(units_of_library(fapu)[FapuUnit::mns], least_lip_of_eyes * 1.0);
+  fapu.origin[static_cast<std::size_t>(FapuUnit::mns)] = FapuOrigin::user;
+  EXPECT_EQ(units_of_library(fapu)[FapuUnit::mns], 0.05);
+}
+
 TEST(UnitsOfLibrary, GivenByHandStay_AndMissingOnesLimitNothing) {
   Fapu fapu;
   fapu.value = {0.7, 1.0, 1.2, 0.6, 0.3};

@@ -39,7 +39,9 @@ class OwnArticulation : public ::testing::Test {
   OwnArticulation() : model_(testing::make_grid(10, 10)) {
     points_ = testing::points_at(model_, {{"2.2", upper}, {"2.3", lower}});
     for (auto& value : fapu_.value) value = unit;
+    set(FapuUnit::mw, 2.0 * unit);
   }
+  void set(FapuUnit name, double value) { fapu_.value[static_cast<std::size_t>(name)] = value; }
   /// A shape that opens the mouth, a quarter of it upwards.
   void add_shape(std::string name, double opens) {
     const auto up = static_cast<float>(0.25 * opens);
@@ -64,6 +66,15 @@ TEST_F(OwnArticulation, IsThatAtWhichTheLibraryOpensAsFar) {
     EXPECT_THAT(own->reason, HasSubstr("a (viseme_aa), e (viseme_E), o (viseme_O) the mouth opens"));
     EXPECT_THAT(own->reason, Not(HasSubstr("limit")));
   }
+}
+
+/// It is a multiple of what on_face makes of the library on this face, whose units are not always the face's own.
+TEST_F(OwnArticulation, IsThatOfTheUnitsInWhichTheFaceWearsTheLibrary) {
+  set(FapuUnit::mns, 0.1 * unit);
+  ASSERT_NE(units_of_library(fapu_)[FapuUnit::mns], fapu_[FapuUnit::mns]);
+  add_shape("viseme_aa", opening("a", 1.5) * *units_of_library(fapu_)[FapuUnit::mns] / unit);
+  ASSERT_TRUE(measured());
+  EXPECT_NEAR(measured()->value, 1.5, 1e-4);
 }
 
 TEST_F(OwnArticulation, OfSeveralVowels_LiesBetweenTheirs) {
