@@ -221,6 +221,18 @@ std::optional<RimVertex> Draft::nearest_vertex(std::size_t id, PartRole role, co
   return out_of_order;
 }
 
+std::optional<RimVertex> Draft::vertex_at_image(std::size_t id, PartRole role) {
+  constexpr double of_an_image = 0.05;
+  const RimOfPoint rim = rim_of_point(id_of(id));
+  if (!images_[id] || rim.opening == nullptr) return std::nullopt;
+  const OrderBounds bounds = order_bounds(id_of(id), settled_);
+  const auto vertex = face_.nearest(role, *images_[id], nullptr,
+                                    [&](std::uint32_t v) { return is_free(v) && bounds.contains(face_.at(v)); });
+  if (!vertex || glm::distance(face_.at(*vertex), *images_[id]) > of_an_image) return std::nullopt;
+  if (rims_.is_surely_beyond(rim, *vertex)) return std::nullopt;
+  return RimVertex{*vertex, undistinguished(*rim.opening)};
+}
+
 std::optional<glm::dvec3> Draft::place_between(std::size_t id, PartRole role, const glm::dvec3& place, double error,
                                                const std::optional<RimVertex>& nearest) const {
   constexpr double of_a_vertex = 0.05;

@@ -86,6 +86,10 @@ class Draft {
   /// Considers only vertices without a point: the parametrization needs a vertex of its own for each point. Prefers
   /// those that keep the order of the points on a face. Empty if the role has none left.
   std::optional<RimVertex> nearest_vertex(std::size_t id, PartRole role, const glm::dvec3& place, double error);
+  /// The free vertex of a lip or lid at the mirror image of a known point, unless the surface shows that it is on the
+  /// other side: whoever marked the partner knew the side, also where a coarse mesh connects both. It keeps the order
+  /// of the points on a face.
+  std::optional<RimVertex> vertex_at_image(std::size_t id, PartRole role);
   /// On a coarse mesh: a place between vertices that is clearly nearer to the expected one than `nearest`, the vertex
   /// to choose otherwise. It keeps the order of the points on a face and does not come near another point. Not
   /// for lips and lids, because only vertices have a side.

@@ -68,6 +68,16 @@ glm::dvec3 related(const Draft& draft, std::size_t id, const glm::dvec3& place) 
   return apply_relations(id_of(id), place, draft.settled());
 }
 
+/// The vertex to choose for a point: that at the mirror image of a known one, if those of its own side are far.
+std::optional<RimVertex> choose_vertex(Draft& draft, std::size_t id, PartRole role, const glm::dvec3& place,
+                                       double error) {
+  constexpr double far = 0.08;  // farther than the two rims of an eye that is nearly closed, or of lips that touch
+  auto nearest = draft.nearest_vertex(id, role, place, error);
+  if (nearest && glm::distance(draft.face().at(nearest->vertex), place) < far) return nearest;
+  auto at_image = draft.vertex_at_image(id, role);
+  return at_image ? at_image : nearest;
+}
+
 /// Proposes a point on the surface of its part, expected at `place`.
 void propose_on_surface(Draft& draft, std::size_t id, const glm::dvec3& place) {
   const FaceSurface& face = draft.face();
@@ -82,7 +92,7 @@ void propose_on_surface(Draft& draft, std::size_t id, const glm::dvec3& place) {
     }
   }
   const auto error_at = [&](const glm::dvec3& chosen) { return std::max(error, 0.5 * glm::distance(chosen, place)); };
-  const std::optional<RimVertex> nearest = draft.nearest_vertex(id, role, place, error);
+  const std::optional<RimVertex> nearest = choose_vertex(draft, id, role, place, error);
   if (const auto between = draft.place_between(id, role, place, error, nearest)) {
     return draft.settle(id, {*between, std::nullopt}, draft.method(id), error_at(*between));
   }
@@ -151,8 +161,11 @@ Result<Proposals> propose_feature_points(const Surface& surface, std::span<const
   if (const auto joint = plausible_joints(joints, parts, known).head)
     head_joint = (*frame)(glm::dvec3(joint->position));
   for (const Turn turn : {Turn::open_skin, Turn::rims, Turn::related}) {
-    for (std::size_t id = 0; id < feature_point_count; ++id) {
-      if (!draft.settled()[id] && turn_of(id_of(id)) == turn) propose(draft, id, head_joint);
+    for (const bool of_image : {true, false}) {  // a guess does not take the vertex at the image of a known point
+      for (std::size_t id = 0; id < feature_point_count; ++id) {
+        const bool is_next = !draft.settled()[id] && turn_of(id_of(id)) == turn && draft.has_image(id) == of_image;
+        if (is_next) propose(draft, id, head_joint);
+      }
     }
   }
   correct_sides(draft);

@@ -8,6 +8,10 @@ std::string sides_in_words(const mpeg4::Opening& opening) {
   return "the " + std::string(opening.upper_name) + " from the " + std::string(opening.lower_name);
 }
 
+std::string undistinguished(const mpeg4::Opening& opening) {
+  return "the surface connects both directly here and does not distinguish " + sides_in_words(opening);
+}
+
 std::optional<RimVertex> RimChoice::nearest(const RimOfPoint& rim, PartRole role, const glm::dvec3& place, double error,
                                             const MirrorPlane* on, const FaceSurface::Filter& is_free) {
   const RimSides& sides = sides_of(*rim.opening);
@@ -35,7 +39,11 @@ std::optional<RimVertex> RimChoice::nearest(const RimOfPoint& rim, PartRole role
   const bool is_contested = other && off(*other) < off(*own) + error;
   const auto clear = nearest_with([](double s) { return s >= RimSides::clear; });
   if (is_contested && clear && off(*clear) < off(*own) + error) return RimVertex{*clear, {}};
-  return RimVertex{*own, "the surface connects both directly here and does not distinguish " + both};
+  return RimVertex{*own, undistinguished(*rim.opening)};
+}
+
+bool RimChoice::is_surely_beyond(const RimOfPoint& rim, std::uint32_t vertex) {
+  return sides_of(*rim.opening).side(SurfaceVertexId(vertex), rim.is_upper) <= -RimSides::clear;
 }
 
 const RimSides& RimChoice::sides_of(const mpeg4::Opening& opening) {

@@ -21,6 +21,9 @@ struct RimVertex {
 /// What is to be distinguished: "the upper lip from the lower lip".
 std::string sides_in_words(const mpeg4::Opening& opening);
 
+/// The doubt about a vertex near which the surface connects both sides.
+std::string undistinguished(const mpeg4::Opening& opening);
+
 /// Chooses vertices for points of lips and lids: the nearest vertex on the point's own side along the surface
 /// (RimSides).
 class RimChoice {
@@ -33,6 +36,8 @@ class RimChoice {
   /// pass `is_free`, if given. Empty if the role has no such vertex.
   std::optional<RimVertex> nearest(const RimOfPoint& rim, PartRole role, const glm::dvec3& place, double error,
                                    const MirrorPlane* on, const FaceSurface::Filter& is_free = {});
+  /// Whether the surface shows that a vertex is on the other side.
+  bool is_surely_beyond(const RimOfPoint& rim, std::uint32_t vertex);
 
  private:
   const RimSides& sides_of(const mpeg4::Opening& opening);

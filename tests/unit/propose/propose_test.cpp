@@ -54,6 +54,32 @@ class Propose : public ::testing::Test {
     surface_ = build_surface(model_);
   }
 
+  /// Lips welded along their rims: the vertices of the lower lip's rim become the nearest ones of the upper lip.
+  /// `width`: of the weld, as a share of the height of the lips.
+  [[nodiscard]] Model with_welded_lips(float width) {
+    Model welded = model_;
+    const auto at = [&](const char* name) { return point(name).position; };
+    const float reach = width * glm::distance(at("8.1"), at("8.2"));
+    std::vector<std::uint32_t> rim;
+    for (std::uint32_t v = 0; v < welded.positions.size(); ++v) {
+      const glm::vec3& p = welded.positions[v];
+      const bool between = p.x < at("2.4").x && p.x > at("2.5").x && std::abs(p.y - at("2.2").y) < reach;
+      if (between && p.z > at("2.4").z) rim.push_back(v);
+    }
+    for (Triangle& t : welded.triangles) {
+      for (std::uint32_t& corner : t) {
+        if (std::find(rim.begin(), rim.end(), corner) == rim.end()) continue;
+        corner = *std::min_element(rim.begin(), rim.end(), [&](std::uint32_t a, std::uint32_t b) {
+          const auto column = [&](std::uint32_t v) {
+            return std::abs(welded.positions[v].x - welded.positions[corner].x);
+          };
+          return column(a) < column(b);
+        });
+      }
+    }
+    return welded;
+  }
+
   Model model_;
   Surface surface_;
   FeaturePointSet all_;
@@ -243,30 +269,23 @@ TEST_F(Propose, NeverPutsTwoPointsAtOneVertex) {
   EXPECT_NE(elsewhere->point.vertex, there.vertex);
 }
 
-TEST_F(Propose, IsNotSureOfASideThatTheSurfaceDoesNotTell) {
-  // Lips welded along their rims: the vertices of the lower lip's rim become the nearest ones of the upper lip.
-  Model welded = model_;
-  const auto at = [&](const char* name) {
-    return std::find_if(all_.begin(), all_.end(), [&](const FeaturePoint& p) { return p.id == fp(name); })->position;
+// On a coarse ear the vertex that is farthest back is its lowest, too.
+TEST_F(Propose, LeavesTheVertexAtTheMirrorImageOfAKnownPoint_ToThatPoint) {
+  const auto farthest_back = [this](const char* name) {
+    return find(*propose(some(quick_set)), fp(name))->point.vertex;
   };
-  const float reach = 0.25F * glm::distance(at("8.1"), at("8.2"));
-  std::vector<std::uint32_t> rim;
-  for (std::uint32_t v = 0; v < welded.positions.size(); ++v) {
-    const glm::vec3& p = welded.positions[v];
-    const bool between = p.x < at("2.4").x && p.x > at("2.5").x && std::abs(p.y - at("2.2").y) < reach;
-    if (between && p.z > at("2.4").z) rim.push_back(v);
-  }
-  for (Triangle& t : welded.triangles) {
-    for (std::uint32_t& corner : t) {
-      if (std::find(rim.begin(), rim.end(), corner) == rim.end()) continue;
-      corner = *std::min_element(rim.begin(), rim.end(), [&](std::uint32_t a, std::uint32_t b) {
-        const auto column = [&](std::uint32_t v) {
-          return std::abs(welded.positions[v].x - welded.positions[corner].x);
-        };
-        return column(a) < column(b);
-      });
-    }
-  }
+  const auto left = farthest_back("10.3");
+  const auto right = farthest_back("10.4");
+  point("10.5").vertex = left;
+  point("10.5").position = model_.positions[left->value()];
+  const auto proposals = propose(some(quick_set));
+  ASSERT_TRUE(proposals);
+  EXPECT_EQ(find(*proposals, fp("10.6"))->point.vertex, right);
+  EXPECT_NE(find(*proposals, fp("10.4"))->point.vertex, right);
+}
+
+TEST_F(Propose, IsNotSureOfASideThatTheSurfaceDoesNotTell) {
+  const Model welded = with_welded_lips(0.25F);
   const Surface surface = build_surface(welded);
   FeaturePointSet known = some(quick_set);
   std::erase_if(known, [](const FeaturePoint& p) { return p.id == fp("2.2") || p.id == fp("2.3"); });
@@ -280,6 +299,21 @@ TEST_F(Propose, IsNotSureOfASideThatTheSurfaceDoesNotTell) {
     EXPECT_NE(p.remark.find("lip"), std::string::npos) << p.remark;
   }
   EXPECT_GE(doubted, 2);
+}
+
+// Whoever marked the point on the left half of the lip knew which lip it is.
+TEST_F(Propose, PutsAPointOfALipAtTheMirrorImageOfTheOther_WhereTheSurfaceDoesNotShowItsSide) {
+  const Model welded = with_welded_lips(0.8F);
+  const Surface surface = build_surface(welded);
+  FeaturePointSet known = some(quick_set);
+  for (const char* const of_left_half : {"2.6", "2.8", "8.5", "8.7", "8.9"}) known.push_back(point(of_left_half));
+  const auto proposals = propose_feature_points(surface, describe_parts(welded, surface, known), known);
+  ASSERT_TRUE(proposals);
+  const Proposal* const proposed = find(*proposals, fp("8.10"));
+  ASSERT_NE(proposed, nullptr);
+  EXPECT_EQ(proposed->point.vertex, point("8.10").vertex);
+  EXPECT_NE(proposed->confidence, Confidence::high);
+  EXPECT_NE(proposed->remark.find("upper lip"), std::string::npos) << proposed->remark;
 }
 
 // A fold on the edge of its lid would keep the edge back in a blink.
