@@ -251,13 +251,13 @@ describe('studio', () => {
     await studio.close();
   });
 
-  test('Studio_VrmFile_IsOfferedAndRead', async () => {
+  test('Studio_VrmFile_IsOfferedAndRead_AlsoIfItsNameIsTooLongForAHead', async () => {
     const studio = await StudioPage.open(browser, server.url);
     const { page } = studio;
     await studio.waitForStage('ready');
     expect((await page.locator('#file').getAttribute('accept'))?.split(',')).toContain('.vrm');
     const upload = page.waitForRequest((request) => request.method() === 'POST' && request.url().includes('/v1/models?'));
-    await studio.drop(sampleHead, 'avatar.vrm');
+    await studio.drop(sampleHead, `\u200F${'ראש'.repeat(40)}.vrm`); // 240 bytes, and a mark of direction as in right-to-left names
     expect((await upload).headers()['content-type']).toBe('model/gltf-binary');
     await studio.waitForState('ready');
     expect(studio.errors).toEqual([]);

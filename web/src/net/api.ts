@@ -70,8 +70,8 @@ export class Api {
   }
 
   uploadModel(file: File, onProgress: (fraction: number) => void, signal?: AbortSignal): Promise<ModelAndJob> {
-    const name = file.name.replace(/\.[a-z0-9]+$/i, '');
-    const url = `${this.base}/v1/models?name=${segment(name)}&filename=${segment(file.name)}`;
+    // The server makes the head's name of the file's, which may be longer than a head's and have characters that no name has.
+    const url = `${this.base}/v1/models?filename=${segment(file.name)}`;
     return upload<ModelAndJob>(url, file, mediaTypeOf(file.name), onProgress, signal);
   }
 

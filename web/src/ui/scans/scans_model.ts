@@ -72,7 +72,6 @@ export class ScansModel {
       const slot = slots.find(({ name }) => name === scan.slot)!;
       try {
         const set = await studio.readExpression(model, scan.file, {
-          name: scan.file.name.replace(/\.[a-z0-9]+$/i, ''),
           kind: slot.kind,
           align: true,
           ...(slot.kind === 'viseme' ? { least: leastOfViseme } : {}),
