@@ -167,6 +167,24 @@ describe('studio', () => {
     await studio.close();
   });
 
+  test('Studio_UploadThatLosesItsConnection_IsTriedAgainByAPress', async () => {
+    const studio = await StudioPage.open(browser, server.url, { allowed: /ERR_FAILED|Failed to load/ });
+    const { page } = studio;
+    await studio.waitForStage('ready');
+    await page.route('**/v1/models?filename=*', (route) => route.abort());
+    await studio.drop(sampleHead, 'lost.glb');
+    const again = page.locator('.toast-error', { hasText: 'lost.glb was not accepted' }).getByRole('button', { name: 'Try again' });
+    await again.waitFor();
+    await page.unroute('**/v1/models?filename=*');
+    // The server is back: the head still is not there.
+    await page.evaluate(() => (window as unknown as { semblante: { studio: { toasts: { serverIsBack(): void } } } }).semblante.studio.toasts.serverIsBack());
+    await again.click();
+    await studio.waitForState('ready');
+    expect(await page.locator('.toast-error').count()).toBe(0);
+    expect(studio.errors).toEqual([]);
+    await studio.close();
+  });
+
   test('Studio_HeadThatCannotBeRead_OffersAnotherAndGoes', async () => {
     const studio = await StudioPage.open(browser, server.url, { width: 1280, height: 720, allowed: /status of 4\d\d/ });
     const { page } = studio;

@@ -123,6 +123,11 @@ export class Studio {
       this.toasts.problem(t('The files could not be read'), problemOf(error));
       return;
     }
+    await this.sendAll(uploads);
+  }
+
+  /** Sends files one by one and opens the first. */
+  private async sendAll(uploads: readonly File[]): Promise<void> {
     const earlier = this.refusals.splice(0);
     const waiting = uploads.map((file) => this.queueUpload(file));
     const imports: Promise<void>[] = [];
@@ -167,8 +172,11 @@ export class Studio {
       this.replaceModel(accepted.model);
       return accepted;
     } catch (error) {
-      if (!(error instanceof DOMException && error.name === 'AbortError'))
-        this.refusals.push(this.toasts.problem(t('{name} was not accepted', { name: file.name }), problemOf(error)));
+      if (!(error instanceof DOMException && error.name === 'AbortError')) {
+        const problem = problemOf(error);
+        const again = problem.status === 0 ? { label: t('Try again'), act: () => void this.sendAll([file]) } : undefined;
+        this.refusals.push(this.toasts.problem(t('{name} was not accepted', { name: file.name }), problem, again));
+      }
       return null;
     } finally {
       this.setActivity(key, null);

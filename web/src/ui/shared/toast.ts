@@ -52,7 +52,8 @@ export class Toasts {
         action ? h('button', { type: 'button', class: 'small', on: { click } }, action.label) : null,
       ),
     );
-    if (problem.status === 0) toast.classList.add('no-answer');
+    // What a press of its button would do has not been done when the server is back.
+    if (problem.status === 0 && !action) toast.classList.add('no-answer');
     return () => toast.remove();
   }
 
