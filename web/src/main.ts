@@ -77,6 +77,7 @@ import { takeThumbnails } from './ui/heads/thumbnails.ts';
 import { forgetThumbnails, ThumbnailStore } from './ui/heads/thumbnail_store.ts';
 import { keepOffline } from '../offline/register.ts';
 import { language, loadServerWords, t } from './words/words.ts';
+import { JobStore, tabStorage } from './ui/shared/job_store.ts';
 import { Toasts } from './ui/shared/toast.ts';
 
 /** Composes the page; the only module that knows all others. */
@@ -86,7 +87,7 @@ function main(root: HTMLElement, base: string, session: Session | null, theme: H
   const extras = h('div', { class: 'row' }, signOutButton(api.base, session, forgetThumbnails), keySheetButton(), languageSelect(), theme);
   const canvas = h('canvas', { class: 'canvas' });
 
-  const studio = new Studio(api, toasts);
+  const studio = new Studio(api, toasts, new JobStore(tabStorage()));
   const drafts = new DraftStore(browserStorage());
   const settings = new SettingsStore(browserStorage());
   const points = new PointsModel(studio, drafts, new MirrorLock(studio, settings));

@@ -1,7 +1,8 @@
-import { expect, test } from 'vitest';
+import { describe, expect, test } from 'vitest';
 import type { Api } from '../src/net/api.ts';
 import { ApiError } from '../src/net/problem.ts';
 import type { Model } from '../src/net/types.ts';
+import { JobStore } from '../src/ui/shared/job_store.ts';
 import { Studio } from '../src/ui/shared/studio.ts';
 import type { Toasts } from '../src/ui/shared/toast.ts';
 import { importingModel } from './support/models.ts';
@@ -167,4 +168,53 @@ test('Upload_ThatIsAccepted_TakesAwayTheMessagesOfFilesChosenBefore_ButNotOfThos
   expect([...shown]).toEqual(['large.glb was not accepted']);
   await upload('next.glb');
   expect([...shown]).toEqual([]);
+});
+
+describe('Parametrization_OfAPageThatWasLoadedAgain', () => {
+  /** The page's storage, and a page over it whose server has a head and what it says of the job. */
+  const kept = new Map<string, string>();
+  const storage = { getItem: (key: string) => kept.get(key) ?? null, setItem: (key: string, value: string) => void kept.set(key, value) } as Storage;
+  async function page(getJob: () => Promise<unknown>): Promise<{ studio: Studio; said: string[]; shown: string[] }> {
+    const said: string[] = [];
+    const shown: string[] = [];
+    const api = { listModels: () => Promise.resolve([head('ana')]), getModel: () => Promise.resolve(head('ana')), parametrize: () => Promise.resolve({ id: 'j7', state: 'running', progress: 0 }), getJob } as unknown as Api;
+    const studio = new Studio(api, { say: (words: string) => said.push(words), problem: (what: string) => shown.push(what) } as unknown as Toasts, new JobStore(storage));
+    await studio.start();
+    return { studio, said, shown };
+  }
+  const never = (): Promise<never> => new Promise(() => {});
+  const settled = (): Promise<void> => new Promise((wake) => setTimeout(wake));
+  async function leftPage(): Promise<void> {
+    const { studio } = await page(never);
+    void studio.parametrize(head('ana'), {});
+    await settled();
+  }
+
+  test('IsFollowedToItsEnd_AndForgotten', async () => {
+    await leftPage();
+    let end = (_: unknown): void => {};
+    const later = await page(() => Promise.resolve({ id: 'j7', state: 'running', progress: 0.4 }));
+    await settled();
+    expect(later.studio.activities.value.get('ana')?.progress).toBe(0.4);
+    const last = await page(() => new Promise((resolve) => (end = resolve)));
+    end({ id: 'j7', state: 'done', progress: 1 });
+    await settled();
+    expect(last.said).toEqual(['ana can move now.']);
+    expect(new JobStore(storage).read().size).toBe(0);
+  });
+
+  test('ThatFailed_IsTold', async () => {
+    await leftPage();
+    const { shown } = await page(() => Promise.resolve({ id: 'j7', state: 'failed', progress: 0.5 }));
+    await settled();
+    expect(shown).toEqual(['The head was not parametrized']);
+  });
+
+  test('ThatTheServerDoesNotKnow_IsForgotten', async () => {
+    await leftPage();
+    const { said, shown } = await page(() => Promise.reject(new ApiError({ type: '/problems/not-found', title: 'no', status: 404 })));
+    await settled();
+    expect([said, shown]).toEqual([[], []]);
+    expect(new JobStore(storage).read().size).toBe(0);
+  });
 });

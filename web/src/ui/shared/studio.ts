@@ -3,6 +3,7 @@ import { headUploads, type PathFile } from '../../net/head_files.ts';
 import { followJob } from '../../net/jobs.ts';
 import { ApiError, problemOf } from '../../net/problem.ts';
 import type { ExtractionOptions, FrameWish, Job, Model, ParametrizationOptions, PartRole, Problem, ProposalsResult, WornEdit } from '../../net/types.ts';
+import { JobStore } from './job_store.ts';
 import { stageTitle } from './names.ts';
 import { Signal } from './signal.ts';
 import type { Toasts } from './toast.ts';
@@ -47,12 +48,14 @@ export class Studio {
   constructor(
     readonly api: Api,
     readonly toasts: Toasts,
+    private readonly jobs = new JobStore(null),
   ) {}
 
-  /** Loads the shelf. */
+  /** Loads the shelf, and goes on with what was at work when the page was left or its server went away. */
   async start(): Promise<void> {
     if (!(await this.refresh())) return;
     for (const model of this.models.value) if (model.state === 'importing') void this.waitForImport(model.id);
+    for (const [head, job] of this.jobs.read()) if (!this.activities.value.has(head)) void this.resume(head, job);
   }
 
   async refresh(): Promise<boolean> {
@@ -241,11 +244,34 @@ export class Studio {
   /** Computes weights and package. Resolves with whether the job succeeded; throws ApiError when points are refused. */
   async parametrize(model: Model, options: ParametrizationOptions): Promise<boolean> {
     const job = await this.api.parametrize(model.id, options);
-    const last = await this.follow(model.id, job, t('Parametrizing'));
-    await this.reload(model.id);
+    this.jobs.keep(model.id, job.id);
+    return this.finish(model.id, job);
+  }
+
+  /** Follows a parametrization to its end. Resolves with whether it succeeded; throws ApiError. */
+  private async finish(id: string, job: Job): Promise<boolean> {
+    const last = await this.follow(id, job, t('Parametrizing'));
+    this.jobs.forget(id);
+    await this.reload(id);
     if (last.state === 'failed')
       throw new ApiError(last.problem ?? { type: 'about:blank', title: t('The parametrization failed'), status: 500 });
     return last.state === 'done';
+  }
+
+  /** Goes on with a parametrization that is not followed any more. */
+  private async resume(id: string, jobId: string): Promise<void> {
+    const head = this.models.value.find((model) => model.id === id);
+    if (!head) return this.jobs.forget(id);
+    let job: Job;
+    try {
+      job = await this.api.getJob(jobId);
+    } catch (error) {
+      if (problemOf(error).status === 404) this.jobs.forget(id);
+      return;
+    }
+    await this.attempt(t('The head was not parametrized'), async () => {
+      if (await this.finish(id, job)) this.toasts.say(t('{name} can move now.', { name: head.name }));
+    });
   }
 
   /** Proposes missing feature points. Resolves with the result, or null when cancelled; throws ApiError. */
