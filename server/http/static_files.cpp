@@ -51,6 +51,15 @@ bool is_older(const struct stat& a, const struct stat& b) {
          (a.st_mtim.tv_sec == b.st_mtim.tv_sec && a.st_mtim.tv_nsec < b.st_mtim.tv_nsec);
 }
 
+/// "/view" to "/view/": addresses in a page are relative to its folder. So is this one, for a proxy's path before it.
+Response moved_into_folder(const std::string& path) {
+  Response response;
+  response.status = 308;
+  response.headers["Location"] = path.substr(path.rfind('/') + 1) + "/";
+  response.headers["Cache-Control"] = "no-cache";
+  return response;
+}
+
 }  // namespace
 
 bool lies_within(const std::filesystem::path& root, const std::filesystem::path& file) {
@@ -73,7 +82,7 @@ Response static_file(const std::filesystem::path& root, const Request& request) 
   const auto file = std::filesystem::canonical(root / path.substr(1), error);
   if (error || !lies_within(root, file)) return absent();
   auto info = regular_file(file);
-  if (!info) return absent();
+  if (!info) return regular_file(file / "index.html") ? moved_into_folder(path) : absent();
 
   Response response;
   auto sent = file;

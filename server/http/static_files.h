@@ -10,8 +10,8 @@ namespace semblante::http {
 /// A file below `root` for a decoded request path; "/" is index.html. Paths outside the root (dot segments, links) and
 /// paths that are not regular files get 404. Files whose name has a content hash (assets/name-<8+ characters>.ext, as
 /// Vite writes them) may be cached for a year, all others are revalidated by their ETag. "/view/<stream>" is
-/// view/index.html. A file that has name.br or name.gz beside it, not older than itself, is sent in that form to those
-/// who accept it.
+/// view/index.html, and a folder with an index.html is redirected to its address with a slash. A file that has name.br
+/// or name.gz beside it, not older than itself, is sent in that form to those who accept it.
 Response static_file(const std::filesystem::path& root, const Request& request);
 
 /// Whether a file or folder, which need not exist yet, lies below `root` or is it, wherever links lead.

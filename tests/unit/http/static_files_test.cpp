@@ -44,6 +44,17 @@ std::string header(const Response& response, const std::string& name) {
   return found == response.headers.end() ? "" : found->second;
 }
 
+TEST(StaticFile, AFolderWithoutItsSlash_IsRedirectedIfItHasAPage) {
+  const WebRoot root("folder");
+  root.write("view/index.html", "the page");
+  root.write("assets/a.js", "no page");
+  const auto moved = root.get("/view");
+  EXPECT_EQ(moved.status, 308);
+  EXPECT_EQ(header(moved, "Location"), "view/");
+  EXPECT_EQ(root.get("/view/").status, 200);
+  EXPECT_EQ(root.get("/assets").status, 404);
+}
+
 TEST(StaticFile, CompressedForm_IsSentToThoseWhoAcceptIt) {
   const WebRoot root("compressed");
   root.write("page.js", "the text itself");
