@@ -16,7 +16,7 @@ std::string words_of(const HttpResponse& response) {
     JsonCursor::Report report;
     return JsonCursor(*document, report).text_or(name, "");
   };
-  for (const char* member : {"title", "detail", "pointer"}) {
+  for (const char* member : {"title", "pointer", "detail"}) {
     const std::string text = member_of(member);
     if (!text.empty()) words += ": " + text.substr(0, 500);
   }

@@ -46,19 +46,6 @@ std::atomic<bool> interrupted{false};
   throw CommandFailure(CommandFailure::bad_input, "play: " + what);
 }
 
-/// The server's error message.
-std::string reason_of(const client::HttpResponse& reply) {
-  const auto problem = read_json_object(reply.body, answer_limits);
-  std::string text = "the server answered " + std::to_string(reply.status);
-  if (!problem) return text;
-  JsonCursor::Report report;
-  const JsonCursor root(json_view(*problem), report);
-  text = root.text_or("detail", text.c_str());
-  if (const auto pointer = root.text_or("pointer", ""); !pointer.empty()) text = pointer + ": " + text;
-  if (const auto advice = find_advice(root.text_or("advice", ""))) text.append(": ").append(text_of(*advice).words);
-  return text;
-}
-
 client::ServerAddress address_of(const PlayCommand& options) {
   auto server = options.server.parse();
   if (!server) fail("play: --server", server.error());
@@ -73,7 +60,7 @@ class Playing {
 
   void create_stream() const {
     const auto reply = ask("POST", "/v1/streams", "application/json", json{{"name", options_.stream}}.dump());
-    if (reply.status != 201 && reply.status != 409) refuse_to_play("--create: " + reason_of(reply));
+    if (reply.status != 201 && reply.status != 409) refuse_to_play("--create: " + words_of(reply));
   }
 
   /// A performance or a .fap file is sent unchanged: the server plays both. Other formats are converted to a
@@ -102,7 +89,7 @@ class Playing {
     std::signal(SIGTERM, [](int) { interrupted = true; });
     const auto reply = ask("POST", target.str(), fap ? "text/plain" : "application/json", std::move(text));
     if (reply.status != 202)
-      refuse_to_play(options_.file + ": " + reason_of(reply) +
+      refuse_to_play(options_.file + ": " + words_of(reply) +
                      (reply.status == 409 ? " (--take-over takes its place)" : ""));
     location_ = reply.header("location");
     for (const auto& warning : note(reply)) say(warning);
@@ -114,7 +101,7 @@ class Playing {
     while (!interrupted) {
       const auto reply = ask("GET", location_);
       if (reply.status == 404) break;
-      if (reply.status != 200) refuse_to_play(reason_of(reply));
+      if (reply.status != 200) refuse_to_play(words_of(reply));
       (void)note(reply);
       if (shows) {
         std::cerr << "\r" << std::fixed << std::setprecision(1) << position_ / 1000.0 << " s";
@@ -126,7 +113,7 @@ class Playing {
     if (shows) std::cerr << "\n";
     if (interrupted) {
       const auto reply = ask("DELETE", location_);
-      if (reply.status != 204 && reply.status != 404) refuse_to_play(reason_of(reply));
+      if (reply.status != 204 && reply.status != 404) refuse_to_play(words_of(reply));
       return;
     }
     if (options_.loop || duration_ <= 0.0 || duration_ - position_ > end_slack)

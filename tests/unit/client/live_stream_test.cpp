@@ -195,7 +195,8 @@ TEST(StreamSocket, Close_TellsTheReason) {
 }
 
 TEST(StreamPublisher, ServerThatMakesNoStream_IsQuotedByItsProblem) {
-  const std::string body = R"({"type":"/problems/not-found","title":"Nothing is made here","status":404})";
+  const std::string body =
+      R"({"type":"/problems/not-found","title":"Nothing is made here","status":404,"pointer":"/name","detail":"is odd"})";
   const CannedServer server(
       "HTTP/1.1 404 Not Found\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body, 2);
   client::PublisherOptions options;
@@ -204,7 +205,7 @@ TEST(StreamPublisher, ServerThatMakesNoStream_IsQuotedByItsProblem) {
   const Status done = publisher.look_after();
   ASSERT_FALSE(done);
   EXPECT_EQ(done.error().message,
-            "the server does not create this stream: the server answered 404: Nothing is made here");
+            "the server does not create this stream: the server answered 404: Nothing is made here: /name: is odd");
 }
 
 TEST(LiveStream, MessageThatIsNone_IsAFault) {
