@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "clients/native/client/carry.h"
+#include "clients/native/client/stream_refusal.h"
 #include "protocol/http/http_client.h"
 
 namespace semblante::client {
@@ -64,7 +65,7 @@ Status StreamPublisher::obey() {
         trouble("no connection to " + stream_ + ": ", event.error->message);
         break;
       case SEMBLANTE_EVENT_END:
-        trouble("no connection to " + stream_ + ": ", "the server ended the stream");
+        trouble("no connection to " + stream_ + ": ", end_of_stream(event.code, stream_).message);
         if (event.is_final) start_at_ = now() + static_cast<double>(options_.retry_first.count());
         break;
       default:

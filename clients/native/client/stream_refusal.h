@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 
+#include "clients/runtime/semblante.h"
 #include "core/types/result.h"
 
 namespace semblante::client {
@@ -24,6 +26,24 @@ inline std::optional<Error> stream_refusal(int status, std::string_view body, co
 
 inline Error no_such_subprotocol(std::string_view protocol, const std::string& where) {
   return {ErrorCode::mismatch, where, "the server does not support the subprotocol " + std::string(protocol)};
+}
+
+/// Why the server ends a connection: `code` of SEMBLANTE_EVENT_END.
+inline Error end_of_stream(std::uint32_t code, const std::string& where) {
+  switch (code) {
+    case SEMBLANTE_END_FINISHED:
+      return {ErrorCode::io, where, "the stream has ended"};
+    case SEMBLANTE_END_DELETED:
+      return {ErrorCode::io, where, "the stream was deleted"};
+    case SEMBLANTE_END_SHUTDOWN:
+      return {ErrorCode::io, where, "the server shuts down"};
+    case SEMBLANTE_END_REPLACED:
+      return {ErrorCode::io, where, "another source took over"};
+    case SEMBLANTE_END_SLOW:
+      return {ErrorCode::io, where, "this client reads too slowly"};
+    default:
+      return {ErrorCode::io, where, "the server ended the connection"};
+  }
 }
 
 }  // namespace semblante::client

@@ -67,11 +67,11 @@ Status publish(const client::ServerAddress& server, const Arguments& arguments) 
   return Unit{};
 }
 
-/// The faces to write: all received states, or linear interpolation at a display's own rate. All are read before the
-/// first is written, since writing is slower than a stream and a subscriber that reads late gets the newest state
-/// instead of every state.
-Result<std::vector<client::DisplayedFrame>> collect(client::FramePlayer& player, std::size_t count, double fps) {
-  std::vector<client::DisplayedFrame> collected;
+/// Adds the faces to write to `collected`: all received states, or linear interpolation at a display's own rate. All
+/// are read before the first is written, since writing is slower than a stream and a subscriber that reads late gets
+/// the newest state instead of every state. What came before an error is kept.
+Status collect(client::FramePlayer& player, std::size_t count, double fps,
+               std::vector<client::DisplayedFrame>& collected) {
   double start = 0;
   while (collected.size() < count) {
     std::optional<client::DisplayedFrame> shown;
@@ -99,7 +99,7 @@ Result<std::vector<client::DisplayedFrame>> collect(client::FramePlayer& player,
     }
     collected.push_back(*shown);
   }
-  return collected;
+  return Unit{};
 }
 
 Status write_all(const std::vector<client::DisplayedFrame>& frames, client::Face& face, FrameOutput& output) {
@@ -175,17 +175,18 @@ Status subscribe(const client::ServerAddress& server, const Arguments& arguments
   if (!output) {
     return std::move(output).error();
   }
-  const auto frames = collect(player, arguments.frames, arguments.fps);
-  if (!frames) {
-    return frames.error();
-  }
+  std::vector<client::DisplayedFrame> frames;
+  const Status complete = collect(player, arguments.frames, arguments.fps, frames);
   stream.close();
-  if (auto written = write_all(*frames, *face, *output); !written) {
+  if (frames.empty()) {
+    return complete;
+  }
+  if (auto written = write_all(frames, *face, *output); !written) {
     return written;
   }
-  std::cout << frames->size() << " frames of " << face->rig().name << " (" << face->rig().mesh.vertices
+  std::cout << frames.size() << " frames of " << face->rig().name << " (" << face->rig().mesh.vertices
             << " vertices) in " << arguments.output.folder.string() << '\n';
-  return Unit{};
+  return complete;
 }
 
 Status run(const Arguments& arguments) {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "clients/native/client/kernel_frame.h"
+#include "clients/native/client/stream_refusal.h"
 #include "protocol/cpp/quantizers.h"
 
 namespace semblante::tools {
@@ -33,7 +34,7 @@ Status listen(LiveStream& stream, Clock::time_point until, Done done) {
       case SEMBLANTE_EVENT_FAULT:
         return std::move(*event->error);
       case SEMBLANTE_EVENT_END:
-        return Error{ErrorCode::io, "stream", "the server ended the stream"};
+        return client::end_of_stream(event->code, "stream");
       default:
         if (stream.machine().state() == SEMBLANTE_STREAM_WAITING) return lost(stream);
     }

@@ -273,6 +273,18 @@ TEST(NativeClient, RecordingOfAStreamThatStops_KeepsWhatCame) {
   EXPECT_FALSE(frames->empty());
 }
 
+TEST(NativeClient, PicturesOfAStreamThatStops_AreWrittenOfWhatCame) {
+  const SampleServer server;
+  server.create_stream("brief");
+  server.post_frames("brief", R"([{"faps":{"3":40}}])");
+  const std::filesystem::path out = server.folder() / "brief";
+  ChildProcess process({SEMBLANTE_CLIENT, server.url(), "--stream", "brief", "--model", "sample", "--frames", "1000",
+                        "--timeout", "2", "--format", "table", "--format", "obj", "--out", out.string()});
+  EXPECT_EQ(process.wait(patience), 1);
+  EXPECT_TRUE(std::filesystem::exists(out / "frame-00000.obj"));
+  EXPECT_TRUE(std::filesystem::exists(out / "frames.csv"));
+}
+
 TEST(NativeClient, ALevelOfDetail_AnimatesLikeTheFullMesh) {
   const SampleServer server;
   const auto full = client::load_face(server.http(), "sample");

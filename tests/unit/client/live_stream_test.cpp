@@ -208,6 +208,23 @@ TEST(StreamPublisher, ServerThatMakesNoStream_IsQuotedByItsProblem) {
             "the server does not create this stream: the server answered 404: Nothing is made here: /name: is odd");
 }
 
+TEST(StreamPublisher, StreamThatIsDeleted_IsToldAsDeleted) {
+  const ScriptedServer server("semblante.v1", [](Socket& socket) {
+    FrameEncoder encoder;
+    say(socket, encoder, named_header());
+    say(socket, encoder, End{EndReason::deleted});
+  });
+  client::StreamPublisher publisher(server.url(), "show", {});
+  std::string news;
+  ASSERT_TRUE(eventually([&] {
+    EXPECT_TRUE(publisher.look_after());
+    if (auto more = publisher.take_news()) news += *more + "; ";
+    return news.find("no connection") != std::string::npos;
+  }));
+  publisher.close();
+  EXPECT_NE(news.find("no connection to show: the stream was deleted"), std::string::npos) << news;
+}
+
 TEST(LiveStream, MessageThatIsNone_IsAFault) {
   const ScriptedServer server("semblante.v1", [](Socket& socket) {
     beast::error_code problem;
