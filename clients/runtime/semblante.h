@@ -154,7 +154,8 @@ semblante_result semblante_head_set_viseme_share(semblante_head* head, float vis
 
 /* Frame -> pose of this head (Eq. 5, 6), kept in the head. FAPs that are not finite are refused. */
 semblante_result semblante_head_set_frame(semblante_head* head, const semblante_frame* frame);
-/* Sets the pose at t (0..1) between two frames, for displays faster than the stream. */
+/* Sets the pose at t (0..1, clamped) between two frames, for displays faster than the stream. A t that is not finite is
+ * refused. */
 semblante_result semblante_head_set_interpolated(semblante_head* head, const semblante_frame* from,
                                                  const semblante_frame* to, float t);
 /* Gets the current pose, or sets one made by the caller (a blend, a filter). */

@@ -215,6 +215,18 @@ TEST(Head, Interpolated_IsHalfWayAtHalf) {
   EXPECT_NEAR(positions_of(head.get())[1], -0.5F, quantization);
 }
 
+TEST(Head, Interpolated_OutsideOfItsFrames_IsTheNearerOne) {
+  const SmallPackage small;
+  const OwnedHead head = make(small);
+  const semblante_frame neutral{};
+  semblante_frame open{};
+  open.fap[3] = 100;
+  ASSERT_EQ(semblante_head_set_interpolated(head.get(), &neutral, &open, 1.5F), SEMBLANTE_OK);
+  EXPECT_NEAR(positions_of(head.get())[1], -1.0F, quantization);
+  ASSERT_EQ(semblante_head_set_interpolated(head.get(), &neutral, &open, -0.5F), SEMBLANTE_OK);
+  EXPECT_NEAR(positions_of(head.get())[1], 0.0F, quantization);
+}
+
 TEST(Head, PoseOfTheCallers_IsWhatIsShown) {
   const SmallPackage small;
   const OwnedHead head = make(small);
