@@ -13,6 +13,7 @@ namespace semblante {
 
 /// The edge of a lid from corner to corner, through its middle point.
 struct LidEdge {
+  static constexpr std::size_t inner = 0;
   static constexpr std::size_t outer = 1;
   SurfacePoint middle;
   std::array<SurfacePoint, 2> corners;                    ///< inner, outer

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/anatomy/part_roles.h"
+#include "core/anatomy/slanted_opening.h"
 #include "core/anatomy/smooth_step.h"
 
 namespace semblante {
@@ -132,8 +133,13 @@ glm::dvec3 pole_of(const Rig& rig, std::size_t eye, const glm::dvec3& pivot) {
 std::optional<Lids> find_lids(const Surface& surface, const EyeEdges& edges, const Rig& rig, std::size_t eye,
                               const ModelledEye* modelled) {
   const glm::dvec3 pivot(eye == 0 ? rig.left_eye_pivot : rig.right_eye_pivot);
-  const glm::dvec3& upper = modelled != nullptr ? modelled->upper : edges.upper.middle.position;
-  const glm::dvec3& lower = modelled != nullptr ? modelled->lower : edges.lower.middle.position;
+  glm::dvec3 upper = modelled != nullptr ? modelled->upper : edges.upper.middle.position;
+  glm::dvec3 lower = modelled != nullptr ? modelled->lower : edges.lower.middle.position;
+  if (modelled == nullptr) {
+    const double beside = opening_height(edges.upper, edges.lower) - (upper.y - lower.y);
+    upper.y += 0.5 * beside;
+    lower.y -= 0.5 * beside;
+  }
   // Behind the axis a lid would slide the other way.
   if (upper.z <= pivot.z || lower.z <= pivot.z) return std::nullopt;
   const double slit = angle_of(upper, pivot) - angle_of(lower, pivot);

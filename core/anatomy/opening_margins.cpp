@@ -10,6 +10,7 @@
 
 #include "core/anatomy/lid_edge.h"
 #include "core/anatomy/lip_edge.h"
+#include "core/anatomy/slanted_opening.h"
 #include "core/anatomy/smooth_step.h"
 
 namespace semblante {
@@ -122,11 +123,14 @@ class LidShares {
  public:
   LidShares(const Surface& surface, const LidEdge& edge, const LidEdge& other, bool is_upper)
       : surface_(surface), edge_(edge), other_(other), is_upper_(is_upper) {
-    height_ = is_upper ? edge.middle.position.y - other.middle.position.y  //
-                       : other.middle.position.y - edge.middle.position.y;
+    height_ = is_upper ? opening_height(edge, other) : opening_height(other, edge);
     const double width = glm::distance(edge.corners[0].position, edge.corners[1].position);
     is_open_ = smooth_step(closed_height, open_height, height_ / width);
+    is_slanted_ = height_ > std::abs(edge.middle.position.y - other.middle.position.y);
   }
+
+  /// Of a slanted eye: its height is estimated, so that the middle too follows its point by what it has to go.
+  [[nodiscard]] bool is_slanted() const { return is_slanted_; }
 
   /// At a place `p` on the way to corner `c`.
   [[nodiscard]] double at(std::size_t c, const glm::dvec3& p) const {
@@ -144,11 +148,17 @@ class LidShares {
   bool is_upper_;
   double height_;
   double is_open_;
+  bool is_slanted_;
 };
 
 void add_lid_sites(const Surface& surface, const LidEdge& edge, const LidEdge& other, bool is_upper,
                    std::vector<MarginSite>& sites) {
   const LidShares shares(surface, edge, other, is_upper);
+  if (shares.is_slanted()) {
+    const glm::dvec3& p = edge.middle.position;
+    sites.push_back(site_between_corners(edge, edge.middle.vertex, p, shares.at(LidEdge::inner, p)));
+    sites.back().replaces_points = true;
+  }
   for (std::size_t c = 0; c < 2; ++c) {
     const auto& path = edge.to_corner[c];
     std::vector<SurfaceVertexId> places = places_on(surface, path, places_of_lid);

@@ -15,7 +15,8 @@ namespace semblante {
 struct MarginSite {
   SurfaceVertexId vertex;
   std::vector<std::pair<FeaturePointId, double>> shares;  ///< positive, sum 1
-  /// The vertex has points of both lips, or of one on the line of both: it follows these shares instead.
+  /// The vertex has points of both lips, or of one on the line of both, or is the middle of a lid of a slanted eye: it
+  /// follows these shares instead.
   bool replaces_points = false;
   bool is_edge = true;  ///< else on a fold
 };

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/anatomy/lids.h"
+#include "core/anatomy/slanted_opening.h"
 #include "core/doctor/openings.h"
 #include "core/doctor/words.h"
 
@@ -21,8 +22,10 @@ std::optional<double> closed_share(const Subject& head, const Opening& opening) 
   const auto& lids = head.rig.lids[eye_of(opening)];
   const auto& upper = head.frame.place(opening.upper.front());
   const auto& lower = head.frame.place(opening.lower.front());
-  if (!lids || !upper || !lower || !(upper->y > lower->y)) return std::nullopt;
-  return std::min(1.0, lids->opening / (upper->y - lower->y));
+  const auto& corner = head.frame.place(opening.corners[0]);
+  const auto& other_corner = head.frame.place(opening.corners[1]);
+  if (!lids || !upper || !lower || !corner || !other_corner || !(upper->y > lower->y)) return std::nullopt;
+  return std::min(1.0, lids->opening / opening_height(*upper, *lower, *corner, *other_corner));
 }
 
 /// Whether lids of one skin close over an eye that is modelled in it: nothing is to be done then.

@@ -10,7 +10,9 @@
 #include <vector>
 
 #include "core/anatomy/point_lookup.h"
+#include "core/anatomy/slanted_opening.h"
 #include "core/tables/mpeg4.h"
+#include "core/tables/openings.h"
 
 namespace semblante {
 namespace {
@@ -35,10 +37,24 @@ std::string_view id_of(std::uint8_t point) { return mpeg4::feature_points[point]
 /// A FAP value of 1024 moves a point by the whole distance (mpeg4/fapu.json, "divisor").
 constexpr double divisor = 1024.0;
 
+/// The corners of the eye whose upper lid the point is on; empty for other points, or if one is not marked.
+std::optional<std::array<glm::dvec3, 2>> corners_of_lid(std::string_view upper, const FeaturePointSet& points) {
+  for (std::size_t eye = 0; eye < 2; ++eye) {
+    const mpeg4::Opening& lids = mpeg4::lids_of(eye);
+    if (lids.upper.front() != upper) continue;
+    const FeaturePoint* const a = find_point(points, lids.corners[0]);
+    const FeaturePoint* const b = find_point(points, lids.corners[1]);
+    if (a != nullptr && b != nullptr) return std::array{glm::dvec3(a->position), glm::dvec3(b->position)};
+  }
+  return std::nullopt;
+}
+
 std::optional<double> measure(const mpeg4::Measure& wanted, const FeaturePointSet& points) {
   const FeaturePoint* const from = find_point(points, id_of(wanted.from));
   const FeaturePoint* const to = find_point(points, id_of(wanted.to));
   if (from == nullptr || to == nullptr) return std::nullopt;
+  if (const auto corners = corners_of_lid(id_of(wanted.to), points))
+    return opening_height(glm::dvec3(to->position), glm::dvec3(from->position), (*corners)[0], (*corners)[1]);
   return static_cast<double>(to->position[wanted.axis]) - static_cast<double>(from->position[wanted.axis]);
 }
 

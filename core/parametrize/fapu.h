@@ -13,7 +13,8 @@ namespace semblante {
 /// FAPUs of a neutral face, in model units, already divided by 1024:
 ///
 ///     IRISD  mean of 3.1.y - 3.3.y (left eye) and 3.2.y - 3.4.y (right); one eye alone is enough, and
-///            of two the open one alone if the other is closed
+///            of two the open one alone if the other is closed. Of a slanted eye whose corners are marked the
+///            height of the opening at one x (slanted_opening.h of core/anatomy): what lids have to close
 ///     ES     3.5.x - 3.6.x
 ///     ENS    3.5.y - 9.15.y
 ///     MNS    9.15.y - 2.2.y

@@ -94,6 +94,19 @@ TEST(Fapu, OneClosedEye_DoesNotCount) {
   EXPECT_EQ(fapu.origin[static_cast<std::size_t>(FapuUnit::irisd)], FapuOrigin::points);
 }
 
+// An eye 2 high between parallel lids that rise by 1 in 2 to its outer corner: the middle of the lower lid is 0.8
+// beside that of the upper one and 1.6 below it, so straight down it is 1.6 + 0.8 / 2 = 2 to the lower lid.
+TEST(Fapu, SlantedEye_GivesTheHeightAtOneX) {
+  FeaturePointSet points = {bare("3.1", {3, 1.6F, 8}), bare("3.3", {3.8F, 0, 8})};
+  EXPECT_FLOAT_EQ(static_cast<float>(compute_fapu(points)[FapuUnit::irisd].value() * 1024), 1.6F);
+  points.push_back(bare("3.7", {6, 2, 8}));
+  points.push_back(bare("3.11", {2, 0, 8}));
+  EXPECT_FLOAT_EQ(static_cast<float>(compute_fapu(points)[FapuUnit::irisd].value() * 1024), 2.0F);
+  // Hardly slanted: 1.6 + 0.8 / 16 is less than 1.05 times 1.6, and the unit is the standard's.
+  points[2].position.y = 0.25F;
+  EXPECT_FLOAT_EQ(static_cast<float>(compute_fapu(points)[FapuUnit::irisd].value() * 1024), 1.6F);
+}
+
 TEST(Fapu, MissingPoints_LeaveTheUnitEmptyAndAreNamed) {
   FeaturePointSet points = whole_face;
   std::erase_if(points, [](const FeaturePoint& p) { return p.id == testing::fp("9.15"); });
