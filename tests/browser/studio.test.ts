@@ -312,7 +312,11 @@ describe('studio', () => {
     const entry = page.locator('.head', { hasText: 'short-lived' });
     await entry.hover();
     await entry.getByRole('button', { name: 'Rename short-lived' }).click();
-    await page.getByRole('textbox', { name: 'Name' }).fill('Renamed head');
+    const name = page.getByRole('textbox', { name: 'Name' });
+    await name.fill('שם'.repeat(51)); // 204 bytes: the dialog stays with what was typed
+    await page.getByRole('button', { name: 'Rename', exact: true }).last().click();
+    expect(await name.evaluate((input) => (input as HTMLInputElement).validationMessage)).toBe('The name is too long.');
+    await name.fill('Renamed head');
     await page.getByRole('button', { name: 'Rename', exact: true }).last().click();
     const renamed = page.locator('.head', { hasText: 'Renamed head' });
     await renamed.waitFor();

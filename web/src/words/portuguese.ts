@@ -88,6 +88,7 @@ export const portuguese = {
   'Delete {name}': 'Excluir {name}',
   'Cancel upload': 'Cancelar o envio',
   'Rename head': 'Renomear a cabeça',
+  'The name is too long.': 'O nome é longo demais.',
   'Delete {name}?': 'Excluir {name}?',
   'Its feature points and its face package are deleted too. This cannot be undone.': 'Seus pontos característicos e seu pacote de rosto também são excluídos. Isto não pode ser desfeito.',
   None: 'Nenhum',

@@ -1,6 +1,7 @@
 import type { NewStream } from '../../net/types.ts';
 import { openDialog } from '../shared/dialog.ts';
 import { h } from '../shared/dom.ts';
+import { nameInput } from '../shared/name_input.ts';
 import { t } from '../../words/words.ts';
 
 /** The server's default and maximum batch interval, ms. */
@@ -9,8 +10,7 @@ const mostBatch = 1000;
 
 /** Asks the user for title and options of a new stream; null when cancelled. */
 export async function askForStream(): Promise<{ title: string; options: NewStream } | null> {
-  const title = h('input', { type: 'text', id: 'stream-title', maxlength: 120, required: true, autocomplete: 'off' });
-  title.value = t('My stream');
+  const title = nameInput('stream-title', t('My stream'));
   const batch = h('input', {
     type: 'number',
     id: 'stream-batch',

@@ -1,4 +1,5 @@
 import { h, type Child } from './dom.ts';
+import { nameInput } from './name_input.ts';
 import { t } from '../../words/words.ts';
 
 interface Question {
@@ -13,11 +14,7 @@ interface Question {
 
 /** A modal question. Resolves with the entered text (empty without an input), or null when cancelled. */
 export async function ask(question: Question): Promise<string | null> {
-  const input =
-    question.value === undefined
-      ? null
-      : h('input', { type: 'text', id: 'dialog-value', maxlength: 120, required: true, autocomplete: 'off' });
-  if (input) input.value = question.value ?? '';
+  const input = question.value === undefined ? null : nameInput('dialog-value', question.value);
   const accepted = await openDialog(
     question,
     question.text ? h('p', {}, question.text) : null,
