@@ -1549,6 +1549,7 @@ export interface components {
             };
         };
         ModelEdit: {
+            /** @description At most 200 bytes of UTF-8 */
             name?: string;
             frame?: components["schemas"]["FrameWish"];
             /** @description Viseme or expression -> id of a set the face wears in its place from now on, or null for the library's own. The face keeps the set as it is now; a package that is there is made again */
@@ -2050,6 +2051,7 @@ export interface components {
         };
         /** @description A set made by hand. The members without a type are what a GET gives beside: they are read over */
         ExpressionEdit: {
+            /** @description At most 200 bytes of UTF-8 */
             name: string;
             /** @default expression */
             kind?: components["schemas"]["SetKind"];
@@ -2063,7 +2065,7 @@ export interface components {
             href?: unknown;
         };
         ExtractionOptions: {
-            /** @description Otherwise that of the target or the file */
+            /** @description Otherwise that of the target or the file. At most 200 bytes of UTF-8 */
             name?: string;
             /** @default expression */
             kind?: components["schemas"]["SetKind"];
@@ -2438,7 +2440,7 @@ export interface components {
         limit: number;
         /** @description `next` of the page before */
         after: string;
-        /** @description Name of the model; otherwise made from the file name */
+        /** @description Name of the model, at most 200 bytes of UTF-8; otherwise made from the file name */
         name: string;
         /** @description Name of the file, for formats the bytes do not show */
         filename: string;
@@ -2701,7 +2703,7 @@ export interface operations {
     createModel: {
         parameters: {
             query?: {
-                /** @description Name of the model; otherwise made from the file name */
+                /** @description Name of the model, at most 200 bytes of UTF-8; otherwise made from the file name */
                 name?: components["parameters"]["name"];
                 /** @description Name of the file, for formats the bytes do not show */
                 filename?: components["parameters"]["filename"];
@@ -4150,7 +4152,7 @@ export interface operations {
                  *     }
                  */
                 "application/json": {
-                    /** @description For people */
+                    /** @description For people. At most 200 bytes of UTF-8 */
                     name?: string;
                     /**
                      * @description Each includes those before it
@@ -4257,6 +4259,7 @@ export interface operations {
                 "application/json": {
                     /** @description Becomes the id; a random one otherwise */
                     name?: string;
+                    /** @description At most 200 bytes of UTF-8 */
                     title?: string;
                     /** @description Id of the model the stream suggests */
                     model?: string | null;
@@ -4777,7 +4780,7 @@ export interface operations {
                  *     }
                  */
                 "application/json": {
-                    /** @description Left out: the stream's title */
+                    /** @description Left out: the stream's title. At most 200 bytes of UTF-8 */
                     name?: string;
                     /** @description ms */
                     max_duration?: number | null;
