@@ -110,7 +110,7 @@ std::vector<Finding> find_unit_faults(const Subject& head) {
         " of the eye distance; " +
         (is_es ? std::string("lids and brows indicate other places of the eyes than the pupils")
                : "on people it is " + two_digits(human[unit].least) + " to " + two_digits(human[unit].greatest)) +
-        ", and every movement in that unit is wrong by the same factor";
+        ", and every FAP in that unit is wrong by the same factor";
     finding.measured = {name + " as a fraction of ES0", share, share < least ? least : greatest};
     findings.push_back(std::move(finding));
   }

@@ -64,7 +64,7 @@ export const portugueseFindings: Readonly<Record<string, Say>> = {
     `Confira ${list(facts.points)}, ou defina a unidade à mão`,
   ],
   'unit-implausible': (facts) => [
-    `${unit(facts)} não é a de um rosto: os movimentos que usam essa unidade serão grandes ou pequenos demais`,
+    `${unit(facts)} não é a de um rosto: os FAPs nessa unidade movem o rosto demais ou de menos`,
     `Confira ${list(facts.points)}, ou defina a unidade à mão`,
   ],
   'unit-by-hand': (facts) => [
