@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "core/types/articulation.h"
+#include "core/types/fapu.h"
 #include "core/types/feature_points.h"
 #include "core/types/model.h"
 
