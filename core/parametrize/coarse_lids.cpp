@@ -108,6 +108,15 @@ class LidMesh {
     return shares.x * corners[0] + shares.y * corners[1] + shares.z * corners[2];
   }
 
+  [[nodiscard]] static double squared_longest_edge(const Corners& corners) {
+    double longest = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const glm::dvec3 edge = corners[(k + 1) % 3] - corners[k];
+      longest = std::max(longest, glm::dot(edge, edge));
+    }
+    return longest;
+  }
+
   [[nodiscard]] static Corners corners_of(const Triangle& triangle, const std::vector<glm::vec3>& at) {
     return {glm::dvec3(at[triangle[0]]), glm::dvec3(at[triangle[1]]), glm::dvec3(at[triangle[2]])};
   }
@@ -125,6 +134,7 @@ class LidMesh {
   /// Those on the outside of lids: the inside is hidden behind it, and may lie in the ball.
   void find_places_before_ball() {
     const std::vector<glm::dvec3> all = shares_of_places();
+    const double ball = lids_.ball.back();
     for (const Triangle& triangle : triangles_) {
       const Corners corners = corners_of(triangle, rest_);
       const glm::dvec3 outwards = area_vector(corners[0], corners[1], corners[2]);
@@ -135,15 +145,8 @@ class LidMesh {
         if (from.z > 0.0 && !is_in_ball(from, glm::dvec3(lids_.gaze), 0.0)) before.shares.push_back(shares);
       }
       places_before_ball_ += before.shares.size();
-      if (has_long_edge(triangle)) places_.push_back(std::move(before));
+      if (squared_longest_edge(corners) > long_edge * long_edge * ball * ball) places_.push_back(std::move(before));
     }
-  }
-
-  [[nodiscard]] bool has_long_edge(const Triangle& triangle) const {
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (glm::distance(rest_[triangle[k]], rest_[triangle[(k + 1) % 3]]) > long_edge * lids_.ball.back()) return true;
-    }
-    return false;
   }
 
   [[nodiscard]] bool is_in_ball(const glm::dvec3& from_pivot, const glm::dvec3& pole, double deep) const {
@@ -155,14 +158,8 @@ class LidMesh {
   /// sum_{i<j} a_i a_j |v_i - v_j|^2 for shares a of its corners v: the products of shares sum to a third at most.
   [[nodiscard]] bool is_clear_of_ball(const Corners& corners) const {
     double nearest = std::numeric_limits<double>::infinity();
-    double longest = 0.0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const glm::dvec3 from = corners[k] - pivot_;
-      const glm::dvec3 edge = corners[(k + 1) % 3] - corners[k];
-      nearest = std::min(nearest, glm::dot(from, from));
-      longest = std::max(longest, glm::dot(edge, edge));
-    }
-    return nearest - longest / 3.0 > largest_radius_ * largest_radius_;
+    for (const glm::dvec3& corner : corners) nearest = std::min(nearest, glm::dot(corner - pivot_, corner - pivot_));
+    return nearest - squared_longest_edge(corners) / 3.0 > largest_radius_ * largest_radius_;
   }
 
   [[nodiscard]] std::size_t count_in_ball(const semblante_rig& rig, const std::array<double, 2>& closure,
