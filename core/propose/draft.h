@@ -87,8 +87,8 @@ class Draft {
   /// those that keep the order of the points on a face. Empty if the role has none left.
   std::optional<RimVertex> nearest_vertex(std::size_t id, PartRole role, const glm::dvec3& place, double error);
   /// The free vertex of a lip or lid at the mirror image of a known point, unless the surface shows that it is on the
-  /// other side: whoever marked the partner knew the side, also where a coarse mesh connects both. It keeps the order
-  /// of the points on a face.
+  /// other side: the known point tells the side where the mesh connects both. Keeps the order of the points on a
+  /// face.
   std::optional<RimVertex> vertex_at_image(std::size_t id, PartRole role);
   /// On a coarse mesh: a place between vertices that is clearly nearer to the expected one than `nearest`, the vertex
   /// to choose otherwise. It keeps the order of the points on a face and does not come near another point. Not

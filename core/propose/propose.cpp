@@ -68,10 +68,11 @@ glm::dvec3 related(const Draft& draft, std::size_t id, const glm::dvec3& place) 
   return apply_relations(id_of(id), place, draft.settled());
 }
 
-/// The vertex to choose for a point: that at the mirror image of a known one, if those of its own side are far.
+/// The nearest vertex on the point's own side of a lip or lid; if it is far, the one at the mirror image of a known
+/// point.
 std::optional<RimVertex> choose_vertex(Draft& draft, std::size_t id, PartRole role, const glm::dvec3& place,
                                        double error) {
-  constexpr double far = 0.08;  // farther than the two rims of an eye that is nearly closed, or of lips that touch
+  constexpr double far = 0.08;  // more than the rims of a nearly closed eye, or of lips that touch, are apart
   auto nearest = draft.nearest_vertex(id, role, place, error);
   if (nearest && glm::distance(draft.face().at(nearest->vertex), place) < far) return nearest;
   auto at_image = draft.vertex_at_image(id, role);
