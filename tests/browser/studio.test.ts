@@ -176,7 +176,7 @@ describe('studio', () => {
     const again = page.locator('.toast-error', { hasText: 'lost.glb was not accepted' }).getByRole('button', { name: 'Try again' });
     await again.waitFor();
     await page.unroute('**/v1/models?filename=*');
-    // The server is back: the head still is not there.
+    // The message stays when the server answers again, since the head was not uploaded.
     await page.evaluate(() => (window as unknown as { semblante: { studio: { toasts: { serverIsBack(): void } } } }).semblante.studio.toasts.serverIsBack());
     await again.click();
     await studio.waitForState('ready');

@@ -68,7 +68,7 @@ TEST_F(OwnArticulation, IsThatAtWhichTheLibraryOpensAsFar) {
   }
 }
 
-/// It is a multiple of what on_face makes of the library on this face, whose units are not always the face's own.
+/// The articulation multiplies the library in units_of_library, which may differ from the units of the face.
 TEST_F(OwnArticulation, IsThatOfTheUnitsInWhichTheFaceWearsTheLibrary) {
   set(FapuUnit::mns, 0.1 * unit);
   ASSERT_NE(units_of_library(fapu_)[FapuUnit::mns], fapu_[FapuUnit::mns]);
