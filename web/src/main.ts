@@ -10,7 +10,7 @@ import { Address } from './ui/page/address.ts';
 import { codeButton } from './ui/code/code_dialog.ts';
 import { ComparePanel } from './ui/compare/compare_panel.ts';
 import { ClipPanel } from './ui/animate/clip_panel.ts';
-import { browserStorage, DraftStore } from './ui/points/draft_store.ts';
+import { DraftStore } from './ui/points/draft_store.ts';
 import { exportButtons } from './ui/export/export_buttons.ts';
 import { handRecorderButton } from './ui/animate/hand_recorder.ts';
 import { h } from './ui/shared/dom.ts';
@@ -77,7 +77,8 @@ import { takeThumbnails } from './ui/heads/thumbnails.ts';
 import { forgetThumbnails, ThumbnailStore } from './ui/heads/thumbnail_store.ts';
 import { keepOffline } from '../offline/register.ts';
 import { language, loadServerWords, t } from './words/words.ts';
-import { JobStore, tabStorage } from './ui/shared/job_store.ts';
+import { JobStore } from './ui/shared/job_store.ts';
+import { browserStorage, tabStorage } from './ui/shared/storage.ts';
 import { Toasts } from './ui/shared/toast.ts';
 
 /** Composes the page; the only module that knows all others. */

@@ -44,15 +44,6 @@ export class DraftStore {
   }
 }
 
-/** The browser's storage, or null where it is forbidden. */
-export function browserStorage(): Storage | null {
-  try {
-    return localStorage;
-  } catch {
-    return null;
-  }
-}
-
 const column = (changes: PointChanges, member: keyof PointChange): Record<string, PointOrNone | undefined> =>
   Object.fromEntries([...changes].map(([id, change]) => [id, change[member]]));
 

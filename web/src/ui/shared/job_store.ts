@@ -31,12 +31,3 @@ export class JobStore {
     }
   }
 }
-
-/** The storage of this tab, or null where it is forbidden. */
-export function tabStorage(): Storage | null {
-  try {
-    return sessionStorage;
-  } catch {
-    return null;
-  }
-}
