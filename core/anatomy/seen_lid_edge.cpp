@@ -2,8 +2,9 @@
 
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <vector>
+
+#include "core/anatomy/front_column.h"
 
 namespace semblante {
 namespace {
@@ -12,50 +13,6 @@ namespace {
 constexpr double least_fold = 0.02;
 /// Heights at which the front of the face is looked at.
 constexpr int steps = 64;
-
-/// What is seen straight from the front in the plane of one x: the nearest surface at each height.
-class FrontColumn {
- public:
-  FrontColumn(const Surface& surface, std::span<const Part> parts, std::span<const Triangle> triangles,
-              const Similarity& frame, double x) {
-    const auto place_of = [&](std::uint32_t file_vertex) {
-      return frame(surface.positions[surface.surface_of[file_vertex].value()]);
-    };
-    for (const Triangle& t : triangles) {
-      const PartRole role = parts[surface.part_of[surface.surface_of[t[0]].value()].value()].role;
-      const bool is_skin = role == PartRole::skin;
-      if (!is_skin && role != PartRole::left_eye && role != PartRole::right_eye) continue;
-      std::vector<glm::dvec3> cut;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const glm::dvec3 a = place_of(t[k]);
-        const glm::dvec3 b = place_of(t[(k + 1) % 3]);
-        if ((a.x < x) != (b.x < x)) cut.push_back(a + (x - a.x) / (b.x - a.x) * (b - a));
-      }
-      if (cut.size() == 2) pieces_.push_back({cut[0], cut[1], is_skin});
-    }
-  }
-
-  struct Seen {
-    bool is_skin = false;
-    double z = -std::numeric_limits<double>::infinity();
-  };
-  [[nodiscard]] std::optional<Seen> at(double y) const {
-    std::optional<Seen> nearest;
-    for (const auto& [a, b, is_skin] : pieces_) {
-      if ((a.y < y) == (b.y < y)) continue;
-      const double z = a.z + (y - a.y) / (b.y - a.y) * (b.z - a.z);
-      if (!nearest || z > nearest->z) nearest = Seen{is_skin, z};
-    }
-    return nearest;
-  }
-
- private:
-  struct Piece {
-    glm::dvec3 a, b;
-    bool is_skin;
-  };
-  std::vector<Piece> pieces_;
-};
 
 }  // namespace
 
