@@ -40,6 +40,19 @@ constexpr Row rows[] = {
 };
 constexpr std::size_t tips = 1;
 
+/// By how much the lid of a closed eye has rolled down about the line through the eye's centre along x: until the tip
+/// of the lashes, which is at `y` and `z` of the open eye, is at the lower lid.
+double roll_of_closed(double x, double y, double z) {
+  const double closed = lower_edge_y(x) + 0.05;
+  return std::atan2(y, z) - std::asin(std::clamp(closed / std::hypot(y, z), -1.0, 1.0));
+}
+
+Vec3 rolled_down(const Vec3& p, double angle) {
+  const double c = std::cos(angle);
+  const double s = std::sin(angle);
+  return {p.x, c * p.y - s * p.z, s * p.y + c * p.z};
+}
+
 }  // namespace
 
 UpperLid make_upper_lid(bool closed) {
@@ -51,7 +64,7 @@ UpperLid make_upper_lid(bool closed) {
     for (int c = 0; c <= columns; ++c) {
       const double t = 2.0 * c / columns - 1.0;
       const double x = t * half_width;
-      const double edge_y = closed ? lower_edge_y(x) + 0.05 : upper_edge_y(x);
+      const double edge_y = upper_edge_y(x);
       const double edge_z = std::sqrt(std::max(front_radius * front_radius - x * x - edge_y * edge_y, 0.0));
       const double lash = 0.17 * (1.0 - std::pow(std::abs(t), 1.2));  // pointed at 3.1: everything else is behind it
       const double end = t * t * t * t;
@@ -67,6 +80,7 @@ UpperLid make_upper_lid(bool closed) {
       const double most = std::max(fold_radius(p.x) - behind_fold, ball_radius(p.x) + over_ball);
       const double radius = std::hypot(p.y, p.z);
       if (row.lash == 0.0 && radius > most) p = {p.x, p.y * most / radius, p.z * most / radius};
+      if (closed) p = rolled_down(p, roll_of_closed(x, edge_y, edge_z + lash));
       loop.push_back(mesh.add(eye_centre + p, paint));
     }
     if (!loops.empty()) bridge(mesh, loops.back(), loop, false, Chart::inner);
