@@ -100,6 +100,10 @@ export const portugueseDetails: Sentences = {
   'it is none of the 84 feature points': 'não é nenhum dos 84 pontos característicos',
   'another request changed the points at the same time: read them and try again': 'outro pedido mudou os pontos ao mesmo tempo: leia-os e tente de novo',
   'proposals need at least {least} placed points, but there are {count}': 'propostas precisam de ao menos {least} pontos marcados, mas há {count}',
+  '{fault}; the shape of the face does not show them: {reason}': '{fault}; a forma do rosto não os mostra: {reason}',
+  'the model has no two eyeballs that are parts of their own': 'o modelo não tem dois globos oculares que sejam partes próprias',
+  'the eyes are not side by side: the head is turned in its file': 'os olhos não estão lado a lado: a cabeça está virada no arquivo',
+  'only {count} are seen': 'só {count} são vistos',
   'the placed points are on one line or at one place, so the orientation of the head cannot be determined':
     'os pontos marcados estão numa linha ou num lugar só, e não se sabe como a cabeça está orientada',
   'sets the axes of the model, so up and front cannot be set as well': 'define os eixos do modelo, e por isso cima e frente não podem ser definidos também',

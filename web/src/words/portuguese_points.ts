@@ -113,6 +113,10 @@ export const portuguesePoints = {
   '{count} points are enough for a talking face. For each one, read its place and {click} there. ': '{count} pontos bastam para um rosto que fala. Para cada um, leia o lugar e {click} ali. ',
   'From {leastKnownPoints} placed points on, the others can be proposed.': 'A partir de {leastKnownPoints} pontos colocados, os outros podem ser propostos.',
   Start: 'Começar',
+  'Or place them: ': 'Ou coloque-os: ',
+  'Find the points': 'Encontrar os pontos',
+  'The shape of most heads shows where the points are. They are found in seconds, and you review them.':
+    'A forma da maioria das cabeças mostra onde estão os pontos. Eles são encontrados em segundos, e você os confere.',
   'Go on: {left} left': 'Continuar: faltam {left}',
   'Search: 2.1, chin…': 'Busca: 2.1, boca…',
   'Search feature points': 'Buscar pontos característicos',

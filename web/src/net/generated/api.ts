@@ -207,7 +207,7 @@ export interface paths {
         put?: never;
         /**
          * Propose the points nobody placed
-         * @description A job that proposes the missing points from the placed ones: at least 8, best the quick set of 20 (9.3, 9.15, 8.1, 2.2, 2.3, 8.2, 2.1, 11.4, 3.11, 3.7, 3.1, 3.3, 3.12, 4.1, 4.5, 9.1, 8.3, 2.13, 10.1, 10.5). When it is done the points have them as `proposed`, in place of all earlier proposals; placed points are never touched, also not those placed while the job ran. The job's `result` says why points could not be proposed. A PUT of the points without `proposed` confirms.
+         * @description A job that proposes the missing points from the placed ones, best the quick set of 20 (9.3, 9.15, 8.1, 2.2, 2.3, 8.2, 2.1, 11.4, 3.11, 3.7, 3.1, 3.3, 3.12, 4.1, 4.5, 9.1, 8.3, 2.13, 10.1, 10.5). With fewer than 8 it first finds points by the shape of the face: pupils, lids and corners of eyes whose balls are seen, the edges of the lips, the tip of the nose; these are proposals too, by `shape`. Where the shape does not show them (eyes that are modelled in the skin), the job fails with `missing-feature-points`. When it is done the points have them as `proposed`, in place of all earlier proposals; placed points are never touched, also not those placed while the job ran. The job's `result` says why points could not be proposed. A PUT of the points without `proposed` confirms.
          */
         post: operations["createProposals"];
         delete?: never;

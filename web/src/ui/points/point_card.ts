@@ -18,6 +18,7 @@ export class PointCard {
     points.changed.watch(() => this.draw());
     points.chosen.watch(() => this.draw());
     points.guided.watch(() => this.draw());
+    points.busy.watch(() => this.draw());
     points.lock.on.watch(() => this.draw());
     points.lock.apart.watch(() => this.draw());
   }
@@ -133,6 +134,27 @@ export class PointCard {
     );
   }
 
+  private offerToFind(): Child {
+    return [
+      h('p', {}, t('The shape of most heads shows where the points are. They are found in seconds, and you review them.')),
+      h(
+        'div',
+        { class: 'row end' },
+        h(
+          'button',
+          {
+            type: 'button',
+            class: 'primary small',
+            disabled: this.points.busy.value,
+            'data-focus': 'find',
+            on: { click: () => void this.points.propose() },
+          },
+          t('Find the points'),
+        ),
+      ),
+    ];
+  }
+
   private plainInvitation(): Child {
     return h(
       'p',
@@ -145,10 +167,13 @@ export class PointCard {
     const left = this.points.quickLeft;
     if (left === 0)
       return h('p', {}, h('strong', {}, t('All twenty are placed. ')), t('Propose the missing points, then review them.'));
+    const canFind = this.points.canFind;
     return [
+      canFind ? this.offerToFind() : null,
       h(
         'p',
         {},
+        canFind ? t('Or place them: ') : null,
         t('{count} points are enough for a talking face. For each one, read its place and {click} there. ', { click: clickWord(), count: quickSet.length }),
         t('From {leastKnownPoints} placed points on, the others can be proposed.', { leastKnownPoints }),
       ),
@@ -159,7 +184,7 @@ export class PointCard {
           'button',
           {
             type: 'button',
-            class: 'primary small',
+            class: `${canFind ? '' : 'primary '}small`,
             'data-focus': 'next',
             on: { click: () => this.points.chooseNext() },
           },

@@ -36,6 +36,8 @@ export class PointsModel {
   private disputed: ReadonlyMap<string, PointOrNone> = new Map();
   /** The reasons why points could not be proposed, by id; of the last proposal job. */
   notProposed: ReadonlyMap<string, string> = new Map();
+  /** The shape of this head shows no points: it was asked for them. */
+  private showsNone = false;
   /** Units set by hand, lengths in model units by name; the server keeps them when points are saved. */
   fapu: FeaturePointSet['fapu'] = {};
   private guidedByUser = false;
@@ -69,6 +71,7 @@ export class PointsModel {
     this.clearProblems();
     this.draft.reset([]);
     this.notProposed = new Map();
+    this.showsNone = false;
     this.disputed = new Map();
     this.fapu = {};
     this.guidedByUser = false;
@@ -294,7 +297,7 @@ export class PointsModel {
     const { model, studio } = this;
     if (!model || (this.draft.changes > 0 && !(await this.save()))) return;
     this.busy.set(true);
-    await studio.attempt(t('No points were proposed'), async () => {
+    const done = await studio.attempt(t('No points were proposed'), async () => {
       const result = await this.unlessOvertaken(model, studio.propose(model, this.etag));
       if (result === null || this.model?.id !== model.id) return;
       const answer = await studio.api.getFeaturePoints(model.id);
@@ -305,6 +308,7 @@ export class PointsModel {
       const { length } = this.draft.proposed;
       studio.toasts.say(length > 0 ? t('{count} points are proposed: review them.', { count: length }) : t('No point could be proposed.'));
     });
+    this.showsNone ||= !done && this.model?.id === model.id && this.draft.points.size === 0;
     this.busy.set(false);
     this.touch();
   }
@@ -392,6 +396,11 @@ export class PointsModel {
   /** Whether enough points are placed for proposals. */
   get canPropose(): boolean {
     return this.draft.points.size - this.draft.proposed.length >= leastKnownPoints;
+  }
+
+  /** Whether the points can be asked for of the shape of the head: nobody has placed any. */
+  get canFind(): boolean {
+    return this.model !== null && this.draft.points.size === 0 && !this.showsNone;
   }
 
   /** Exchanges these points with their mirror points in the draft, without saving. */
