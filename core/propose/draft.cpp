@@ -75,6 +75,14 @@ PartId piece_with_most(const Surface& surface, const FeaturePointSet& points) {
   return PartId(static_cast<std::uint32_t>(std::max_element(count.begin(), count.end()) - count.begin()));
 }
 
+Proposal proposal_of(const FeaturePoint& point, ProposalMethod method, double error) {
+  const double radius = nine_in_ten * error;
+  const Confidence confidence = radius < surely  ? Confidence::high
+                                : radius < about ? Confidence::medium
+                                                 : Confidence::low;
+  return {point, method, confidence, radius, {}};
+}
+
 }  // namespace
 
 FeaturePointId id_of(std::size_t id) { return FeaturePointId(static_cast<std::uint8_t>(id)); }
@@ -153,11 +161,18 @@ bool Draft::are_apart(const mpeg4::Opening& lids) const {
   return upper && lower && *upper != *lower;
 }
 
+/// The standard deviation of a known point.
+double Draft::noise_of(std::size_t known) const {
+  const auto at = std::find_if(head_.found.begin(), head_.found.end(),
+                               [&](const FoundPoint& found) { return found.point.id == id_of(known); });
+  return at == head_.found.end() ? marking_noise : at->noise;
+}
+
 void Draft::guess(std::span<const ReferenceHead> references) {
   std::vector<KnownPlace> samples;
   for (std::size_t id = 0; id < feature_point_count; ++id) {
     if (settled_[id]) {
-      samples.push_back({id_of(id), *settled_[id], marking_noise});
+      samples.push_back({id_of(id), *settled_[id], noise_of(id)});
     } else if (settled_[mirror_of(id)]) {
       images_[id] = mirror_image(id);
       samples.push_back({id_of(id), *images_[id], mirror_noise});
@@ -269,14 +284,9 @@ void Draft::settle(std::size_t id, const Spot& spot, ProposalMethod method, doub
   if (spot.vertex && rim_of_point(id_of(id)).opening == nullptr) {
     anchors_.push_back({id_of(id), SurfaceVertexId(*spot.vertex), head_.surface.positions[*spot.vertex]});
   }
-  Proposal proposal;
-  proposal.point.id = id_of(id);
-  proposal.method = method;
   if (method != ProposalMethod::mirror) error = std::hypot(error, difference_between_heads(id_of(id)));
   if (spot.vertex) error = std::hypot(error, between_vertices * face_.spacing(*spot.vertex));
-  const double radius = nine_in_ten * error;
-  proposal.expected_error = radius;
-  proposal.confidence = radius < surely ? Confidence::high : radius < about ? Confidence::medium : Confidence::low;
+  Proposal proposal = proposal_of({id_of(id), std::nullopt}, method, error);
   if (!doubt.empty()) proposal.confidence = std::max(proposal.confidence, Confidence::medium);
   proposal.remark = std::move(doubt);
   if (spot.vertex) {
@@ -299,7 +309,19 @@ void Draft::refuse(std::size_t id, std::string reason) {
   proposals_.not_proposed.push_back({id_of(id), std::move(reason)});
 }
 
+void Draft::propose_found() {
+  for (const FoundPoint& found : head_.found) {
+    double error = found.noise;
+    if (found.point.vertex) {
+      const SurfaceVertexId vertex = head_.surface.surface_of[found.point.vertex->value()];
+      error = std::hypot(error, between_vertices * face_.spacing(vertex.value()));
+    }
+    proposals_.points.push_back(proposal_of(found.point, ProposalMethod::shape, error));
+  }
+}
+
 Proposals Draft::take() {
+  propose_found();
   std::sort(proposals_.points.begin(), proposals_.points.end(),
             [](const Proposal& a, const Proposal& b) { return a.point.id < b.point.id; });
   std::sort(proposals_.not_proposed.begin(), proposals_.not_proposed.end(),

@@ -18,6 +18,7 @@
 #include "core/geometry/sphere_fit.h"
 #include "core/geometry/surface.h"
 #include "core/propose/face_surface.h"
+#include "core/propose/found_points.h"
 #include "core/propose/proportion_guess.h"
 #include "core/propose/propose.h"
 #include "core/propose/relations.h"
@@ -37,6 +38,7 @@ struct HeadToMark {
   std::span<const Part> parts;
   std::span<const Triangle> triangles;  ///< of file vertices, may be empty
   const FeaturePointSet& known;
+  std::span<const FoundPoint> found = {};  ///< those of `known` that nobody marked: proposals as well
 };
 
 /// A position, with the surface vertex there, if any.
@@ -112,6 +114,8 @@ class Draft {
  private:
   void find_mirror_plane();
   void guess(std::span<const ReferenceHead> references);
+  [[nodiscard]] double noise_of(std::size_t known) const;
+  void propose_found();
   [[nodiscard]] const Proposal* find_proposal(std::size_t id) const;
   [[nodiscard]] glm::dvec3 mirror_image(std::size_t id) const;
   [[nodiscard]] std::optional<PartId> piece_of_partner(std::size_t id) const;

@@ -12,6 +12,7 @@
 #include "core/anatomy/point_order.h"
 #include "core/anatomy/rim_points.h"
 #include "core/propose/draft.h"
+#include "core/propose/found_points.h"
 #include "core/propose/lid_corrections.h"
 #include "core/propose/modelled_rim_corrections.h"
 #include "core/propose/mouth_and_eyes.h"
@@ -134,19 +135,64 @@ std::string missing_of_quick_set(const FeaturePointSet& known) {
   return missing.empty() ? "" : "; missing from the quick set: " + missing;
 }
 
-}  // namespace
-
-std::optional<Error> find_too_few_known(const FeaturePointSet& known) {
-  if (known.size() >= least_known_points) return std::nullopt;
-  return Error{ErrorCode::missing, "/points",
-               "proposals need at least " + std::to_string(least_known_points) + " placed points, but there are " +
-                   std::to_string(known.size()) + missing_of_quick_set(known)};
+bool has_vertex(const FeaturePointSet& points, const Surface& surface, VertexId vertex) {
+  return std::any_of(points.begin(), points.end(), [&](const FeaturePoint& point) {
+    return point.vertex && surface.surface_of[point.vertex->value()] == surface.surface_of[vertex.value()];
+  });
 }
 
-Result<Proposals> propose_feature_points(const Surface& surface, std::span<const Part> parts,
-                                         const FeaturePointSet& known, std::span<const ReferenceHead> references,
+Error too_few(const FeaturePointSet& marked, const std::string& why_none_by_shape) {
+  return Error{ErrorCode::missing, "/points",
+               "proposals need at least " + std::to_string(least_known_points) + " placed points, but there are " +
+                   std::to_string(marked.size()) + "; the shape of the face does not show them: " + why_none_by_shape +
+                   missing_of_quick_set(marked)};
+}
+
+/// Enough of marked and found points: found ones are spread over the face, and an eye that is shut has few.
+constexpr std::size_t least_with_found = 6;
+
+/// With too few marked points, those that the shape of the face shows beside them; otherwise none.
+Result<std::vector<FoundPoint>> find_missing(const Surface& surface, std::span<const Part> parts,
+                                             std::span<const Triangle> triangles, const FeaturePointSet& marked) {
+  if (marked.size() >= least_known_points) return std::vector<FoundPoint>();
+  auto found = find_points_by_shape(surface, parts, triangles);
+  if (!found) return too_few(marked, found.error().message);
+  std::erase_if(*found, [&](const FoundPoint& f) {
+    return find_point(marked, f.point.id) != nullptr ||
+           (f.point.vertex && has_vertex(marked, surface, *f.point.vertex));
+  });
+  if (marked.size() + found->size() < least_with_found)
+    return too_few(marked, "only " + std::to_string(found->size()) + " are seen");
+  return found;
+}
+
+/// A part with a found point of the skin is skin, as one with a marked point is.
+std::vector<Part> with_found_skin(const Surface& surface, std::span<const Part> parts,
+                                  std::span<const FoundPoint> found) {
+  std::vector<Part> changed(parts.begin(), parts.end());
+  for (const auto& [point, noise] : found) {
+    if (!point.vertex || !is_skin_point(point.id)) continue;
+    Part& part = changed[surface.part_of[surface.surface_of[point.vertex->value()].value()].value()];
+    if (!part.role_by_user) part.role = PartRole::skin;
+  }
+  return changed;
+}
+
+FeaturePointSet with_found(FeaturePointSet points, std::span<const FoundPoint> found) {
+  for (const FoundPoint& f : found) points.push_back(f.point);
+  std::sort(points.begin(), points.end(), [](const FeaturePoint& a, const FeaturePoint& b) { return a.id < b.id; });
+  return points;
+}
+
+}  // namespace
+
+Result<Proposals> propose_feature_points(const Surface& surface, std::span<const Part> described,
+                                         const FeaturePointSet& marked, std::span<const ReferenceHead> references,
                                          const NeckJoints& joints, std::span<const Triangle> triangles) {
-  if (std::optional<Error> fault = find_too_few_known(known)) return std::move(*fault);
+  const auto found = find_missing(surface, described, triangles, marked);
+  if (!found) return found.error();
+  const std::vector<Part> parts = with_found_skin(surface, described, *found);
+  const FeaturePointSet known = with_found(marked, *found);
   Places places;
   for (const FeaturePoint& point : known) places[point.id.value()] = glm::dvec3(point.position);
   std::optional<Similarity> frame = fit_to_references(places, references);
@@ -157,7 +203,7 @@ Result<Proposals> propose_feature_points(const Surface& surface, std::span<const
             missing_of_quick_set(known)};
   }
   frame->rotation = to_quarter_turns(frame->rotation);
-  Draft draft({surface, parts, triangles, known}, *frame, references);
+  Draft draft({surface, parts, triangles, known, *found}, *frame, references);
   std::optional<glm::dvec3> head_joint;
   if (const auto joint = plausible_joints(joints, parts, known).head)
     head_joint = (*frame)(glm::dvec3(joint->position));

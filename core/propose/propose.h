@@ -50,12 +50,8 @@ struct Proposals {
   std::vector<NotProposed> not_proposed;  ///< rising by id
 };
 
-/// Minimum number of known points.
+/// With fewer marked points, those that the shape of the face shows by itself are looked for (found_points.h).
 inline constexpr std::size_t least_known_points = 8;
-
-/// Checks `known` without a model: `missing` when it has too few points, with the missing points of the quick
-/// set.
-std::optional<Error> find_too_few_known(const FeaturePointSet& known);
 
 /// Proposes the feature points that are missing in `known`. Known points are not changed. Deterministic, and
 /// independent of the order of the points and of the model's unit. `references`: the proportions of other heads.
@@ -64,7 +60,8 @@ std::optional<Error> find_too_few_known(const FeaturePointSet& known);
 /// position without a vertex, where they show that the surface is nearer to it than any free vertex; without them
 /// never.
 ///
-/// Errors: `missing` for too few known points, or points too close together to determine the pose of the head.
+/// Errors: `missing` for too few known points on a face whose shape does not show the others, or for points too close
+/// together to determine the pose of the head.
 Result<Proposals> propose_feature_points(const Surface& surface, std::span<const Part> parts,
                                          const FeaturePointSet& known,
                                          std::span<const ReferenceHead> references = reference_heads(),

@@ -2,7 +2,6 @@
 
 #include "core/lod/decimate.h"
 #include "core/parametrize/weight_method.h"
-#include "core/propose/propose.h"
 #include "protocol/hash/sha256.h"
 #include "server/api/common.h"
 #include "server/api/generated/body_members.h"
@@ -117,11 +116,6 @@ http::Response create_proposals(Context& context, http::Request& request) {
   if (check.earlier) return earlier_job(context, *check.earlier);
   check_if_match(request, points_etag(model));
   refuse_unless_imported(model);
-  FeaturePointSet placed;
-  for (const auto& point : context.store.feature_points(model.id)) {
-    if (!point.proposal) placed.push_back({*parse_feature_point(point.id), std::nullopt});
-  }
-  if (const auto fault = find_too_few_known(placed)) refuse("missing-feature-points", fault->message, fault->where);
   refuse_unless_room(context.jobs);
   const auto turn = take_quota(context, request, {.jobs = 1});
   const auto job = jobs::new_record(jobs::ProposeJob{}, model.id, origin_of(request));

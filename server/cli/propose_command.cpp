@@ -69,7 +69,10 @@ void run(const ProposeCommand& options) {
   const auto parts = describe_parts(head.model, head.surface, head.points);
   const auto proposals = propose_feature_points(head.surface, parts, head.points, reference_heads(),
                                                 head.model.neck_joints, head.model.triangles);
-  if (!proposals) fail(options.head.feature_points_path, proposals.error());
+  if (!proposals) {
+    const std::string& points = options.head.feature_points_path;
+    fail(points.empty() ? options.head.model_path : points, proposals.error());
+  }
   const Json json = document(head, *proposals);
   write_file(options.out, [&json](std::ostream& out) { out << json.dump(1) << "\n"; });
   print_warnings(head.warnings.all(), options.head.quiet);
@@ -79,9 +82,11 @@ void run(const ProposeCommand& options) {
 
 void add_propose_command(CLI::App& app) {
   auto options = std::make_shared<ProposeCommand>();
-  CLI::App* const command = app.add_subcommand(
-      "propose", "Propose the feature points that nobody placed, from those that are, for a look and a correction");
-  add_file_options(*command, options->head);
+  CLI::App* const command = app.add_subcommand("propose",
+                                               "Propose the feature points that nobody placed, from those that are or "
+                                               "else from the shape of the face, for a look "
+                                               "and a correction");
+  add_file_options(*command, options->head, PointsOption::optional);
   command->add_option("--out", options->out, "Write all points here, the proposed ones marked; - is standard output")
       ->capture_default_str()
       ->envname("SEMBLANTE_OUT");

@@ -116,8 +116,12 @@ std::vector<ProposalError> errors_from(const ProposalStudy& study, const std::ve
   const auto proposals = propose_feature_points(study.surface, study.parts_from(known), known, study.other_heads, {},
                                                 study.model.triangles);
   if (!proposals) throw std::runtime_error(study.name + ": " + proposals.error().message);
+  return errors_of(study, *proposals);
+}
+
+std::vector<ProposalError> errors_of(const ProposalStudy& study, const Proposals& proposals) {
   std::vector<ProposalError> errors;
-  for (const Proposal& proposal : proposals->points) {
+  for (const Proposal& proposal : proposals.points) {
     const FeaturePoint* const placed = find_point(study.placed, to_string(proposal.point.id));
     if (placed == nullptr) continue;
     const double off = glm::distance(glm::dvec3(proposal.point.position), glm::dvec3(placed->position));

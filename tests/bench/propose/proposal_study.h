@@ -54,6 +54,9 @@ FeaturePointSet some_points(const ProposalStudy& study, const std::vector<std::s
 /// Proposes from those points and compares with the others. Points that nobody placed are not counted.
 std::vector<ProposalError> errors_from(const ProposalStudy& study, const std::vector<std::string_view>& names);
 
+/// Compares with the placed points. Points that nobody placed are not counted.
+std::vector<ProposalError> errors_of(const ProposalStudy& study, const Proposals& proposals);
+
 /// `count` different points of the head.
 std::vector<std::string_view> random_names(const ProposalStudy& study, std::size_t count, std::mt19937& random);
 

@@ -132,14 +132,16 @@ TEST_F(ProposalRoutes, Marks_SurviveARoundTripAndEndWithAPutWithoutThem) {
   EXPECT_EQ(now["11.1"]["proposed"], true);
 }
 
-TEST_F(ProposalRoutes, TooFewPoints_AreRefusedWithTheMissingOnes) {
-  expect_problem(propose(), 422, "missing-feature-points", "/points");
-  put(points_of(std::vector<std::string>{"9.3", "2.1", "8.1"}));
-  const auto reply = propose();
-  expect_problem(reply, 422, "missing-feature-points", "/points");
-  EXPECT_THAT(reply.body, HasSubstr("at least 8"));
-  EXPECT_THAT(reply.body, HasSubstr("11.4"));
-  EXPECT_EQ(json_of(reply)["detail"].get<std::string>().find("9.3,"), std::string::npos) << "that one is there";
+TEST_F(ProposalRoutes, WithoutPlacedPoints_ThoseOfTheShapeAreProposed) {
+  const auto job = proposed();
+  ASSERT_EQ(job.value("state", ""), "done") << job;
+  const auto found = points();
+  for (const std::string id : {"2.2", "2.3", "3.1", "3.2", "3.7", "9.3"}) {
+    ASSERT_TRUE(found.contains(id)) << id;
+    EXPECT_EQ(found[id]["proposed"], true) << id;
+    EXPECT_EQ(found[id]["method"], "shape") << id;
+  }
+  EXPECT_GT(found.size(), 75U);
 }
 
 TEST_F(ProposalRoutes, PointsThatSayNothing_FailTheJobWithTheReason) {
