@@ -10,9 +10,12 @@ namespace {
 
 static_assert(arkit_count == 52 && oculus_count == 15, "as the header says");
 
-/// Runs `make`, which returns a Result of a value with a frame.
+/// Runs `make`, which returns a Result of a value with a frame, on the argument `values` of this name.
 template <class Make>
-semblante_result make_frame(semblante_frame* frame, semblante_error* error, const Make& make) {
+semblante_result make_frame(const char* name, const float* values, semblante_frame* frame, semblante_error* error,
+                            const Make& make) {
+  if (values == nullptr || frame == nullptr)
+    return fail(error, SEMBLANTE_INVALID_ARGUMENT, frame == nullptr ? "frame" : name, "is null");
   return guarded(error, [&] {
     const auto made = make();
     if (!made) return fail(error, SEMBLANTE_INVALID_ARGUMENT, made.error().where, made.error().message);
@@ -40,9 +43,9 @@ extern "C" {
 
 semblante_result semblante_frame_from_arkit(const float coefficients[52], semblante_frame* frame,
                                             semblante_error* error) {
-  if (coefficients == nullptr || frame == nullptr) return SEMBLANTE_INVALID_ARGUMENT;
-  return runtime::make_frame(
-      frame, error, [&] { return frame_from_arkit(std::span<const float, arkit_count>(coefficients, arkit_count)); });
+  return runtime::make_frame("coefficients", coefficients, frame, error, [&] {
+    return frame_from_arkit(std::span<const float, arkit_count>(coefficients, arkit_count));
+  });
 }
 
 semblante_result semblante_arkit_from_frame(const semblante_frame* frame, float coefficients[52]) {
@@ -50,9 +53,9 @@ semblante_result semblante_arkit_from_frame(const semblante_frame* frame, float 
 }
 
 semblante_result semblante_frame_from_oculus(const float weights[15], semblante_frame* frame, semblante_error* error) {
-  if (weights == nullptr || frame == nullptr) return SEMBLANTE_INVALID_ARGUMENT;
-  return runtime::make_frame(
-      frame, error, [&] { return frame_from_oculus(std::span<const float, oculus_count>(weights, oculus_count)); });
+  return runtime::make_frame("weights", weights, frame, error, [&] {
+    return frame_from_oculus(std::span<const float, oculus_count>(weights, oculus_count));
+  });
 }
 
 semblante_result semblante_oculus_from_frame(const semblante_frame* frame, float weights[15]) {

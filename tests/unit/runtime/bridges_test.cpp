@@ -42,6 +42,12 @@ TEST(SdkBridges, BadInput_IsRefusedByName) {
   EXPECT_EQ(semblante_frame_from_arkit(coefficients.data(), &frame, &error), SEMBLANTE_INVALID_ARGUMENT);
   EXPECT_EQ(std::string(error.where), "jawOpen");
   EXPECT_EQ(semblante_frame_from_arkit(nullptr, &frame, nullptr), SEMBLANTE_INVALID_ARGUMENT);
+  EXPECT_EQ(semblante_frame_from_arkit(nullptr, &frame, &error), SEMBLANTE_INVALID_ARGUMENT);
+  EXPECT_EQ(std::string(error.where), "coefficients");
+  EXPECT_EQ(semblante_frame_from_oculus(nullptr, &frame, &error), SEMBLANTE_INVALID_ARGUMENT);
+  EXPECT_EQ(std::string(error.where), "weights");
+  EXPECT_EQ(semblante_frame_from_arkit(coefficients.data(), nullptr, &error), SEMBLANTE_INVALID_ARGUMENT);
+  EXPECT_EQ(std::string(error.where), "frame");
   EXPECT_EQ(semblante_frame_from_oculus(nullptr, &frame, nullptr), SEMBLANTE_INVALID_ARGUMENT);
   EXPECT_EQ(semblante_arkit_from_frame(&frame, nullptr), SEMBLANTE_INVALID_ARGUMENT);
   frame.fap[3] = std::numeric_limits<float>::infinity();
