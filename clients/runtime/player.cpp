@@ -52,8 +52,6 @@ void Player::begin(const Header& header) {
   moment_.viseme_share = header.viseme_share;
 }
 
-void Player::forget_moment() { moment_.from_time = moment_.to_time = unknown_time; }
-
 void Player::clear() {
   held_.clear();
   before_.reset();
@@ -132,7 +130,8 @@ void Player::select() {
   const Held& second = is_pair ? held_[1] : first;
   // After a rest the motion takes as long as between two messages, not the whole length of the rest.
   const double span = is_pair ? second.time - second.begin : 0;
-  if (moment_.from_time != first.time || moment_.to_time != second.time) {
+  if (is_moment_forgotten_ || moment_.from_time != first.time || moment_.to_time != second.time) {
+    is_moment_forgotten_ = false;
     moment_.frames[pair_from] = in_units(first.state);
     moment_.frames[pair_to] = is_pair ? in_units(second.state) : moment_.frames[pair_from];
     moment_.from_time = first.time;

@@ -77,7 +77,8 @@ class Player {
   void select();
   void choose_curve(double span);
   [[nodiscard]] semblante_frame in_units(const FaceFrame& state) const;
-  void forget_moment();
+  /// The frames of the moment are read anew at the next step; until then it stays what is shown.
+  void forget_moment() { is_moment_forgotten_ = true; }
 
   PlayerOptions options_;
   Playout playout_;
@@ -89,6 +90,7 @@ class Player {
   double last_advance_ = unknown_time;
   Moment moment_;
   bool has_moment_ = false;
+  bool is_moment_forgotten_ = true;
 };
 
 }  // namespace semblante::runtime

@@ -241,6 +241,29 @@ TEST(Player, AnotherEpoch_IsAnotherTimeLine) {
   EXPECT_LE(semblante_player_time(player.get()), 250);
 }
 
+TEST(Player, NewHeader_KeepsTheMomentUntilTheNextStep) {
+  ScriptedServer server;
+  const OwnedPlayer player = make_player(100);
+  ASSERT_EQ(semblante_player_follow(player.get(), server.stream), SEMBLANTE_OK);
+  server.begin(1000, 50'000);
+  for (std::uint64_t i = 1; i < 20; ++i)
+    server.batch(50'000 + 40 * i, {{0, face(1)}}, 1000 + 40.0 * static_cast<double>(i));
+  semblante_player_advance(player.get(), 1700, 16);
+  semblante_moment shown{};
+  shown.size = sizeof(shown);
+  ASSERT_EQ(semblante_player_moment(player.get(), &shown), SEMBLANTE_OK);
+  ASSERT_GT(shown.to_time, shown.from_time);
+  semblante_stream_closed(server.stream, 0, 2000);
+  semblante_stream_start(server.stream, 2000);
+  server.open(2000);
+  server.greet(ScriptedServer::header(7, 51'000), {40, 51'000, face(9)}, 2010);
+  semblante_moment kept{};
+  kept.size = sizeof(kept);
+  ASSERT_EQ(semblante_player_moment(player.get(), &kept), SEMBLANTE_OK);
+  EXPECT_EQ(kept.from_time, shown.from_time);
+  EXPECT_EQ(kept.to_time, shown.to_time);
+}
+
 TEST(Player, SameEpoch_NeverGoesBackAndLeavesOutWhatItHas) {
   ScriptedServer server;
   const OwnedPlayer player = make_player(100);
