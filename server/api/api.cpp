@@ -32,6 +32,13 @@ constexpr unsigned stopping_retry_after = 5;
 
 bool is_safe(std::string_view method) { return method == "GET" || method == "HEAD" || method == "OPTIONS"; }
 
+/// JSON is UTF-8 (RFC 8259, 8.1), and has no parameter; some clients write what they send nevertheless.
+bool is_utf8_if_json(std::string_view content_type) {
+  const auto charset = http::parameter(content_type, "charset");
+  return http::essence(content_type) != "application/json" || charset.empty() ||
+         equal_ignoring_case(charset, "utf-8") || equal_ignoring_case(charset, "us-ascii");
+}
+
 bool takes(const RouteBody& body, std::string_view media_type) {
   // A body without a Content-Type is taken to have the right one.
   if (media_type.empty() || body.kind == BodyKind::none) return true;
@@ -185,6 +192,8 @@ std::variant<http::BodyPlan, http::Response> Api::plan(const http::Request& head
     return to_response(make_problem(
         "unsupported-media-type",
         content_type + " is not accepted here; send the body with Content-Type: " + in_words(route->body.types)));
+  if (!is_safe(head.method) && !is_utf8_if_json(head.header("Content-Type").value_or("")))
+    return to_response(make_problem("unsupported-media-type", "JSON is accepted in UTF-8 only"));
   // A compressed body would be stored as it came, and fail later as a file of no format.
   if (const auto coding = head.header("Content-Encoding").value_or("");
       !is_safe(head.method) && !coding.empty() && !equal_ignoring_case(coding, "identity")) {

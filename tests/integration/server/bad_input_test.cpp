@@ -190,6 +190,20 @@ TEST_F(BadInput, WrongMediaType_IsToldTheRightOne) {
   EXPECT_THAT(json_of(model).value("detail", ""), HasSubstr("application/octet-stream"));
 }
 
+/// Read as UTF-8, "é" of another charset would be no text, or another one.
+TEST_F(BadInput, JsonOfAnotherCharset_IsRefused) {
+  const auto create = [](const char* name, const char* type) {
+    return request(port(), "POST", "/v1/streams", json{{"name", name}}.dump(), {{"Content-Type", type}});
+  };
+  for (const char* other : {"application/json; charset=utf-16", "application/json;charset=\"ISO-8859-1\""}) {
+    const auto refused = create("charset", other);
+    EXPECT_EQ(refused.status, 415) << other;
+    EXPECT_THAT(json_of(refused).value("detail", ""), HasSubstr("UTF-8"));
+  }
+  EXPECT_EQ(create("charset-utf-8", "application/json; charset=\"UTF-8\"").status, 201);
+  EXPECT_EQ(create("charset-ascii", "application/json; charset=us-ascii").status, 201);
+}
+
 /// A compressed body would fail its import much later, as a file of no format.
 TEST_F(BadInput, CompressedBody_IsRefusedBeforeItIsStored) {
   const auto with_coding = [](const char* path, const std::string& body, const char* type, const char* coding) {

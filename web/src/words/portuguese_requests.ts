@@ -14,6 +14,7 @@ export const portugueseRequests: Sentences = {
   'there is no route {path}': 'não há o endereço {path}',
   'the answer here is {type}': 'a resposta aqui é {type}',
   '{type} is not accepted here; send the body with Content-Type: {types}': '{type} não é aceito aqui; envie o corpo com Content-Type: {types}',
+  'JSON is accepted in UTF-8 only': 'JSON só é aceito em UTF-8',
   'bodies with Content-Encoding are not accepted: send the body as it is': 'corpos com Content-Encoding não são aceitos: envie o corpo como ele é',
   'the form has two parts "file"': 'o formulário tem duas partes "file"',
   '{path} is no stream': '{path} não é um fluxo',
