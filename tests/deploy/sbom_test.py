@@ -49,6 +49,9 @@ class Sbom(unittest.TestCase):
             self.assertRegex(document["documentNamespace"], r"^https://[^#\s]+$")
             self.assertEqual(document["creationInfo"]["created"], "2023-11-14T22:13:20Z")
             self.assertRegex(document["creationInfo"]["creators"][0], r"^Tool: \S+$")
+            defined = {text["licenseId"] for text in document["hasExtractedLicensingInfos"] if text["extractedText"]}
+            used = {part for package in document["packages"] for part in re.findall(r"LicenseRef-[A-Za-z0-9.-]+", package["licenseConcluded"])}
+            self.assertEqual(defined, used, name)
             ids = [package["SPDXID"] for package in document["packages"]]
             self.assertEqual(len(set(ids)), len(ids))
             for package in document["packages"]:
