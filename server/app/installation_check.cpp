@@ -234,7 +234,7 @@ void check_sample(InstallationFindings& findings, const ServeOptions& options) {
 void check_worker(InstallationFindings& findings, const ServeOptions& options) {
   std::string answer;
   const auto exit = jobs::run_worker_process(
-      {jobs::own_executable(), "worker", "--memory", std::to_string(options.worker_memory), "--cpu-seconds",
+      {jobs::running_program, "worker", "--memory", std::to_string(options.worker_memory), "--cpu-seconds",
        std::to_string(options.worker_cpu_seconds)},
       "{}", "/dev/null", worker_patience, [&](std::string_view line) { answer = line; },
       [] { return jobs::Wish::go_on; });

@@ -9,7 +9,7 @@ namespace semblante {
 
 jobs::JobConfig job_config(const ServeOptions& options, const jobs::Isolation& isolation) {
   jobs::JobConfig config;
-  config.worker_command = {jobs::own_executable(), "worker"};
+  config.worker_command = {jobs::running_program, "worker"};
   config.isolation = isolation;
   config.limits.memory_bytes = options.worker_memory;
   config.limits.cpu_seconds = options.worker_cpu_seconds;

@@ -1,6 +1,7 @@
 #include <memory>
 
 #include <CLI/CLI.hpp>
+#include <sys/prctl.h>
 
 #include "server/app/commands.h"
 #include "server/cli/command_failure.h"
@@ -24,6 +25,7 @@ void add_worker_command(CLI::App& app) {
       ->envname("SEMBLANTE_JOB_FILE_BYTES")
       ->capture_default_str();
   command->callback([limits] {
+    ::prctl(PR_SET_NAME, "semblante");  // else "exe", as it was started by /proc/self/exe
     jobs::limit_this_process(*limits);
     if (jobs::run_worker() != 0)
       throw CommandFailure(CommandFailure::bad_input, "worker: the job has a problem (reported on standard output)");

@@ -152,8 +152,8 @@ std::string read_last_words(const std::filesystem::path& file) {
 
 std::string own_executable() {
   std::error_code error;
-  const auto path = std::filesystem::read_symlink("/proc/self/exe", error);
-  return error ? std::string("/proc/self/exe") : path.string();
+  const auto path = std::filesystem::read_symlink(running_program, error);
+  return error ? std::string(running_program) : path.string();
 }
 
 Result<WorkerExit> run_worker_process(const std::vector<std::string>& arguments, std::string_view input,

@@ -43,7 +43,11 @@ Result<WorkerExit> run_worker_process(const std::vector<std::string>& arguments,
                                       const std::function<Wish()>& poll_wish,
                                       const std::optional<WorkerLimits>& limits = std::nullopt);
 
-/// Path of this program, to start it again as a worker.
+/// This program as it runs, to start it again as a worker: also when an update has put another file in its place, whose
+/// workers could understand jobs otherwise.
+inline constexpr const char* running_program = "/proc/self/exe";
+
+/// Where the file of this program is, and what is installed beside it.
 std::string own_executable();
 
 }  // namespace semblante::jobs

@@ -1,7 +1,8 @@
 """`cmake --install` into a folder of its own: the program works there, and after the folder was moved, without options."""
 
-import os
+import json
 import re
+import shutil
 import subprocess
 import unittest
 
@@ -97,6 +98,27 @@ class Installation(unittest.TestCase):
         unit = (self.folder / "usr/lib/systemd/system/semblante.service").read_text()
         self.assertIn("\nExecStart=/usr/bin/semblante serve --config /etc/semblante/semblante.toml\n", unit)
         self.assertNotIn(str(self.folder), unit)
+
+
+class Update(unittest.TestCase):
+    def test_jobs_run_in_the_program_of_the_server_also_when_its_file_is_another(self):
+        with support.temporary_folder() as folder:
+            program = folder / "semblante"
+            shutil.copy2(support.PROGRAM, program)
+            with support.Server(folder / "data", program=program) as server:
+                other = folder / "other"
+                other.write_text("#!/bin/sh\nexit 1\n")
+                other.chmod(0o755)
+                other.rename(program)
+                model = (TOP / "tests/deploy/tetrahedron.obj").read_bytes()
+                answer = support.get(server.url + "/v1/models?filename=a.obj", model, {"Content-Type": "model/obj"})[2]
+                job = server.url + "/v1/jobs/" + json.loads(answer)["job"]["id"]
+
+                def ended():
+                    now = support.get_json(job)
+                    return now["state"] not in ("queued", "running") and now
+
+                self.assertEqual(support.eventually(ended, "the import")["state"], "done")
 
 
 support.main()
