@@ -141,7 +141,12 @@ Api::Api(Context context) : context_(std::move(context)) {
 
 void Api::find_route(http::Request& head) {
   auto match = match_route(head.method, head.path);
-  const bool page = match.allow.empty() && is_page(context_.config, head.path) && is_safe(head.method);
+  const bool reads = head.method == "GET" || head.method == "HEAD";
+  const bool page = match.allow.empty() && is_page(context_.config, head.path) && reads;
+  // A look at the disk, which is left to a worker where there is a file to send.
+  if (match.allow.empty() && is_page(context_.config, head.path) && !reads &&
+      http::has_static_file(context_.config.web_root, head.path))
+    match.allow = "OPTIONS, GET, HEAD";
   if (match.route != nullptr)
     head.route = static_cast<std::size_t>(match.route - routes().data());
   else

@@ -108,4 +108,11 @@ Response static_file(const std::filesystem::path& root, const Request& request) 
   return apply_conditions(request, std::move(response));
 }
 
+bool has_static_file(const std::filesystem::path& root, const std::string& path) {
+  Request request;
+  request.method = "GET";
+  request.path = path;
+  return static_file(root, request).status != 404;
+}
+
 }  // namespace semblante::http

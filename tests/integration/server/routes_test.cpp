@@ -417,6 +417,23 @@ TEST_F(Routes, BadRequests_NameTheField) {
   expect_problem(request(port(), "GET", "/v1/models?after=nobody"), 400, "invalid-argument", "?after");
 }
 
+TEST_F(Routes, OtherMethodsOfAPage_AreToldApartFromPagesThatAreMissing) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder.path() / "web");
+  std::ofstream(folder.path() / "web" / "index.html") << "the page";
+  const ServerProcess pages(folder.path() / "data", {"--web-root", (folder.path() / "web").string()});
+  for (const char* method : {"TRACE", "POST", "DELETE"}) {
+    const auto wrong = request(pages.port(), method, "/");
+    expect_problem(wrong, 405, "method-not-allowed");
+    EXPECT_EQ(wrong.headers.at("allow"), "OPTIONS, GET, HEAD") << method;
+    expect_problem(request(pages.port(), method, "/missing.html"), 404, "not-found");
+  }
+  const auto options = request(pages.port(), "OPTIONS", "/");
+  EXPECT_EQ(options.status, 204);
+  EXPECT_EQ(options.headers.at("allow"), "OPTIONS, GET, HEAD");
+  EXPECT_EQ(request(pages.port(), "GET", "/").body, "the page");
+}
+
 TEST_F(Routes, BadRoutesAndMethods_AreToldApart) {
   expect_problem(request(port(), "GET", "/v1/nothing"), 404, "not-found");
   expect_problem(request(port(), "GET", "/v1/models/a/b/c"), 404, "not-found");
