@@ -1,6 +1,8 @@
 #include "core/anatomy/lid_edge.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <string_view>
 
 #include <glm/geometric.hpp>
@@ -13,6 +15,9 @@ namespace {
 /// Maximum distance of a corner from the lid's part if it is not a vertex of that part, as a fraction of the eye's
 /// width.
 constexpr double greatest_step_to_corner = 0.25;
+/// An edge that reaches beyond its corner by more than this fraction of the eye's width, along x, is the one that ends
+/// there: the corner's point is beside the end of the opening. Edges of fine meshes reach beyond it by 0.011 at most.
+constexpr double least_step_beyond_corner = 0.02;
 
 const SurfacePoint* find(std::span<const SurfacePoint> points, std::string_view name) {
   const auto at = std::find_if(points.begin(), points.end(),
@@ -50,6 +55,23 @@ std::optional<LidEdge> lid_edge(const Surface& surface, std::span<const SurfaceP
   return edge;
 }
 
+/// If `edge` goes past corner `c` and back, its way back becomes part of `other`.
+void meet_at_end_of_opening(const Surface& surface, std::size_t c, LidEdge& edge, LidEdge& other) {
+  if (!edge.ends_at_corner[c] || !other.ends_at_corner[c]) return;
+  const double across = edge.corners[c].position.x - edge.corners[1 - c].position.x;
+  const auto beyond_corner = [&](SurfaceVertexId v) {
+    return (surface.positions[v.value()].x - edge.corners[c].position.x) * (across < 0.0 ? -1.0 : 1.0);
+  };
+  auto& path = edge.to_corner[c];
+  const auto end = std::max_element(path.begin(), path.end(), [&](SurfaceVertexId a, SurfaceVertexId b) {
+    return beyond_corner(a) < beyond_corner(b);
+  });
+  if (end == path.end() || !(beyond_corner(*end) > least_step_beyond_corner * std::abs(across))) return;
+  other.to_corner[c].insert(other.to_corner[c].end(), std::next(path.rbegin()), std::make_reverse_iterator(end));
+  path.erase(std::next(end), path.end());
+  edge.ends_at_corner[c] = other.ends_at_corner[c] = false;
+}
+
 }  // namespace
 
 std::optional<EyeEdges> find_eye_edges(const Surface& surface, std::span<const SurfacePoint> points, std::size_t eye) {
@@ -58,6 +80,10 @@ std::optional<EyeEdges> find_eye_edges(const Surface& surface, std::span<const S
   auto upper = lid_edge(surface, points, eye == 0 ? "3.1" : "3.2", corners);
   auto lower = lid_edge(surface, points, eye == 0 ? "3.3" : "3.4", corners);
   if (!upper || !lower) return std::nullopt;
+  for (std::size_t c = 0; c < 2; ++c) {
+    meet_at_end_of_opening(surface, c, *upper, *lower);
+    meet_at_end_of_opening(surface, c, *lower, *upper);
+  }
   return EyeEdges{*std::move(upper), *std::move(lower)};
 }
 

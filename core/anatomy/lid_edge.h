@@ -18,13 +18,16 @@ struct LidEdge {
   SurfacePoint middle;
   std::array<SurfacePoint, 2> corners;                    ///< inner, outer
   std::array<std::vector<SurfaceVertexId>, 2> to_corner;  ///< shortest paths from the middle
-  std::array<bool, 2> ends_at_corner{};                   ///< or at the vertex of its part that is nearest to it
+  /// Or at the vertex of its part that is nearest to the corner, or at the outermost one of the opening.
+  std::array<bool, 2> ends_at_corner{};
 };
 
 /// The height of an eye's opening as a share of its width below which its lids are closed. Open eyes have 0.2 and more.
 inline constexpr double closed_height = 0.04;
 
-/// Both edges of one eye. Points are those of the standard (left: 3.1, 3.3, corners 3.11 and 3.7).
+/// Both edges of one eye. Points are those of the standard (left: 3.1, 3.3, corners 3.11 and 3.7). On a coarse mesh the
+/// point of a corner may be one vertex along a lid: the edges then meet at the outermost vertex of the opening, and
+/// that lid's edge leads through the point.
 struct EyeEdges {
   LidEdge upper, lower;
 };

@@ -163,9 +163,14 @@ void add_lid_sites(const Surface& surface, const LidEdge& edge, const LidEdge& o
     const auto& path = edge.to_corner[c];
     std::vector<SurfaceVertexId> places = places_on(surface, path, places_of_lid);
     if (!edge.ends_at_corner[c] && !path.empty()) places.push_back(path.back());
+    const SurfaceVertexId corner = edge.corners[c].vertex;
+    const bool leads_through_corner = !path.empty() && std::find(path.begin(), path.end(), corner) < path.end() - 1;
+    if (leads_through_corner && std::find(places.begin(), places.end(), corner) == places.end())
+      places.push_back(corner);
     for (const SurfaceVertexId vertex : places) {
       const glm::dvec3& p = surface.positions[vertex.value()];
       sites.push_back(site_between_corners(edge, vertex, p, shares.at(c, p)));
+      sites.back().replaces_points = leads_through_corner && vertex == corner;
     }
   }
 }

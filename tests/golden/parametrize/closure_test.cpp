@@ -94,7 +94,7 @@ TEST(Blink, ShutsSlantedEyes) {
   }
 }
 
-TEST(Blink, LeavesAnEyeThatIsClosedAtRestAsItIs_AndItOpensInAnArc) {
+// IRISD is the meanEyeThatIsClosedAtRestAsItIs_AndItOpensInAnArc) {
   std::size_t closed = 0;
   for (const testing::FamilyMember& member : testing::sample_family()) {
     if (!member.traits.closed_eyes) continue;
@@ -247,7 +247,8 @@ TEST(Blink, IsHalfDoneHalfWay) {
 
 /// An eye behind lids that are a grid of `columns` by `rows` quads.
 struct EyeBehindGrid {
-  EyeBehindGrid(int columns, int rows) : eye(testing::ball_behind_lids(false, columns, rows)) {
+  EyeBehindGrid(int columns, int rows) : EyeBehindGrid(testing::ball_behind_lids(false, columns, rows)) {}
+  explicit EyeBehindGrid(testing::SculptedEye of_eye) : eye(std::move(of_eye)) {
     FeaturePointSet points;
     for (const SurfacePoint& p : eye.points)
       points.push_back({p.id, eye.surface.file_vertex_of[p.vertex.value()], glm::vec3(p.position)});
@@ -260,16 +261,24 @@ struct EyeBehindGrid {
     rig = parametrize(eye.model, eye.surface, points, options).value();
   }
 
-  /// The triangles of the lids whose middles are in the ball when the eye is shut.
-  [[nodiscard]] std::size_t in_ball(const Rig& of) const {
+  [[nodiscard]] std::vector<glm::vec3> pose(const Rig& of, const semblante_frame& frame) const {
     const KernelRig kernel_rig = make_kernel_rig(of);
     const semblante_rig view = kernel_rig.view();
-    const semblante_frame shut = bench::frame_of({{19, 1024.0F}});
     semblante_pose pose;
-    semblante_evaluate(&view, &shut, &pose);
+    semblante_evaluate(&view, &frame, &pose);
     const semblante_face face = make_kernel_face(of, &eye.model.positions[0].x);
     std::vector<glm::vec3> moved(eye.model.positions.size());
     semblante_deform(&face, &pose, &moved[0].x);
+    return moved;
+  }
+
+  [[nodiscard]] std::uint32_t file_vertex(SurfaceVertexId v) const {
+    return eye.surface.file_vertex_of[v.value()].value();
+  }
+
+  /// The triangles of the lids whose middles are in the ball when the eye is shut.
+  [[nodiscard]] std::size_t in_ball(const Rig& of) const {
+    const std::vector<glm::vec3> moved = pose(of, bench::frame_of({{19, 1024.0F}}));
     return static_cast<std::size_t>(
         std::count_if(eye.model.triangles.begin(), eye.model.triangles.end(), [&](const Triangle& t) {
           const glm::vec3 middle = (moved[t[0]] + moved[t[1]] + moved[t[2]]) / 3.0F;
@@ -281,6 +290,22 @@ struct EyeBehindGrid {
   testing::SculptedEye eye;
   Rig rig;
 };
+
+// The place of the point stayed where it was: of a coarse head the eye was two fifths open over it.
+TEST(LidEdges, MeetAtTheEndOfTheOpening_WhereACornerIsMarkedOnOneLid) {
+  constexpr double x = 0.75;
+  testing::SculptedEye marked = testing::ball_behind_lids(false, 30, 24);
+  marked.mark("3.7", x, -testing::sculpted_edge(x) - 0.03);
+  const EyeBehindGrid head(marked);
+  const auto edges = find_eye_edges(head.eye.surface, head.eye.points, 0);
+  ASSERT_TRUE(edges.has_value());
+  const SurfaceVertexId end = edges->upper.to_corner[LidEdge::outer].back();
+  EXPECT_EQ(edges->lower.to_corner[LidEdge::outer].back(), end);
+  EXPECT_GT(head.eye.surface.positions[end.value()].x, 0.95);
+  const std::uint32_t corner = head.file_vertex(head.eye.point("3.7").vertex);
+  EXPECT_LT(head.eye.model.positions[corner].y, -testing::sculpted_edge(x));
+  EXPECT_GT(head.pose(head.rig, bench::frame_of({{21, 1024.0F}}))[corner].y, 0.9 * testing::sculpted_edge(x));
+}
 
 TEST(CoarseLids, RiseFromTheBallThatTheirTrianglesWouldCut) {
   const EyeBehindGrid coarse(8, 6);
