@@ -146,12 +146,8 @@ std::optional<Lids> find_lids(const Surface& surface, const EyeEdges& edges, con
   if (slit < -greatest_overlap || slit > greatest_slit) return std::nullopt;
   Lids lids;
   lids.slit = static_cast<float>(std::max(slit, least_slit));
-  // Lids close no farther than they are open: IRISD is the mean of both eyes, estimated if they are closed, or given by
-  // hand.
   const double least = least_slit * std::hypot(upper.y - pivot.y, upper.z - pivot.z);
-  const double own = std::max(upper.y - lower.y, least);
-  lids.opening =
-      static_cast<float>(rig.fapu[FapuUnit::irisd] ? std::min(own, 1024.0 * *rig.fapu[FapuUnit::irisd]) : own);
+  lids.opening = static_cast<float>(std::max(upper.y - lower.y, least));
   for (float& share : lids.gaze_share) share *= static_cast<float>(smooth_step(closed_slit, open_slit, slit));
   const glm::dvec3 pole = pole_of(rig, eye, pivot);
   lids.gaze = pole;

@@ -114,7 +114,7 @@ void semblante_evaluate(const semblante_rig* rig, const semblante_frame* frame, 
       pose->tongue_roll = clamped(value * SEMBLANTE_AU_RADIANS, -rig->tongue.roll_limit, rig->tongue.roll_limit);
     } else if (fap->kind == SEMBLANTE_FAP_TRANSLATION && rig->fapu[fap->unit] != 0.0F) {
       /* Eq. 6. A thrust moves the whole eyeball; every other FAP moves its point. */
-      const float displacement = (float)fap->sign * value * rig->fapu[fap->unit];
+      const float displacement = (float)fap->sign * value * semblante_unit_at(fap->fp, rig->fapu[fap->unit], rig->lids);
       const int eye = fap->fp == SEMBLANTE_FP_LEFT_PUPIL || fap->fp == SEMBLANTE_FP_RIGHT_PUPIL;
       float* const target = eye ? pose->eye_translation[rigid_part_of(fap->fp)] : &pose->fp[(size_t)fap->fp * 3];
       target[fap->axis] = displacement;

@@ -8,6 +8,8 @@
 #include "core/kernel/lane_motions.h"
 #include "core/tables/generated/mpeg4_tables.h"
 
+/* A FAP of this value moves its point by the whole unit. */
+#define FAPU_DIVISOR 1024.0F
 /* A lid opens beyond neutral by at most this share of the slit, or until the slit is this wide if that is more
  * (radians): eyes that are closed or hardly open on the neutral face can open. */
 #define WIDEST 0.75F
@@ -24,6 +26,16 @@
 static float dot(const float a[3], const float b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 static float clamped(float value, float low, float high) { return value < low ? low : value > high ? high : value; }
+
+float semblante_unit_at(uint8_t fp, float unit, const semblante_lids lids[2]) {
+  for (int eye = 0; eye < 2; ++eye) {
+    const float own = lids[eye].opening / FAPU_DIVISOR;
+    if ((fp == SEMBLANTE_UPPER_LID(eye) || fp == SEMBLANTE_LOWER_LID(eye)) && own > unit) {
+      return own;
+    }
+  }
+  return unit;
+}
 
 void semblante_stop_lids(int eye, semblante_pose* pose) {
   const float opening = pose->lids[eye].opening;

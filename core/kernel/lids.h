@@ -14,6 +14,10 @@
 /* A vertex slides on its circle while its depth before the axis is more than this share of the circle's radius. */
 #define SEMBLANTE_LID_NEAREST 0.05F
 
+/* The unit of a FAP of the point `fp`, whose unit on the face is `unit`: of a lid that rolls, of an eye that is open
+ * wider than IRISD, its own opening, so that 1024 closes either of two unequal eyes. */
+float semblante_unit_at(uint8_t fp, float unit, const semblante_lids lids[2]);
+
 /* Stops the points of the lids of one eye in pose->fp where the eye is closed, so that what follows them stops too. */
 void semblante_stop_lids(int eye, semblante_pose* pose);
 

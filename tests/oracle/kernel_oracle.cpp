@@ -151,10 +151,12 @@ Pose evaluate(const semblante_rig& rig, const semblante_frame& frame) {
   }
 
   const Pose sets = pose;
-  std::array<Vec3, 84> own{};                    // 1 where a FAP moves the point along the axis
-  const int left_pupil = 18;                     // 3.5: 14 points of group 2, then the fifth of group 3
-  const int right_pupil = 19;                    // 3.6
-  std::array<std::array<double, 3>, 3> angle{};  // left eye, right eye, head; by axis
+  std::array<Vec3, 84> own{};                                  // 1 where a FAP moves the point along the axis
+  const int left_pupil = 18;                                   // 3.5: 14 points of group 2, then the fifth of group 3
+  const int right_pupil = 19;                                  // 3.6
+  const auto upper_lid_of = [](int eye) { return 14 + eye; };  // 3.1, 3.2
+  const auto lower_lid_of = [](int eye) { return 16 + eye; };  // 3.3, 3.4
+  std::array<std::array<double, 3>, 3> angle{};                // left eye, right eye, head; by axis
   for (int n = 3; n <= 68; ++n) {
     const mpeg4::Fap& fap = mpeg4::fap(static_cast<std::size_t>(n));
     const double value = frame.fap[n];
@@ -176,15 +178,15 @@ Pose evaluate(const semblante_rig& rig, const semblante_frame& frame) {
     if (fap.kind == mpeg4::FapKind::rotation) {
       angle[part][fap.axis] = fap.sign * value * mpeg4::radians_per_au;
     } else {
-      const double fapu = rig.fapu[static_cast<int>(fap.unit)];
+      double fapu = rig.fapu[static_cast<int>(fap.unit)];
       if (fapu == 0.0) continue;
-      const double displacement = fap.sign * value * fapu;  // Eq. 6
+      if (fp >= upper_lid_of(0) && fp <= lower_lid_of(1))
+        fapu = std::max(fapu, rig.lids[fp % 2].opening / 1024.0);  // left lids have even indices
+      const double displacement = fap.sign * value * fapu;         // Eq. 6
       (part < 2 ? pose.eye_translation[part] : pose.fp[fp])[fap.axis] = displacement;
       own[fp][fap.axis] = 1.0;
     }
   }
-  const auto upper_lid_of = [](int eye) { return 14 + eye; };  // 3.1, 3.2
-  const auto lower_lid_of = [](int eye) { return 16 + eye; };  // 3.3, 3.4
   for (int eye = 0; eye < 2; ++eye) {
     const double opening = rig.lids[eye].opening;
     if (opening <= 0.0) continue;

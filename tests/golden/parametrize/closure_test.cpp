@@ -94,7 +94,24 @@ TEST(Blink, ShutsSlantedEyes) {
   }
 }
 
-// IRISD is the meanEyeThatIsClosedAtRestAsItIs_AndItOpensInAnArc) {
+// IRISD is the mean of both eyes: the left one stayed open by a fifth.
+TEST(Blink, ShutsBothOfTwoUnequalEyes) {
+  const bench::Head sample = bench::sample_head();
+  bench::Head head = sample;
+  head.model.positions = PosedFace(sample, WeightMethod::smooth).pose(bench::frame_of({{20, 400.0F}}));
+  for (FeaturePoint& point : head.points) {
+    if (point.vertex) point.position = head.model.positions[point.vertex->value()];
+  }
+  head.surface = build_surface(head.model);
+  const PosedFace face(head, WeightMethod::smooth);
+  for (const OpeningKind eye : {OpeningKind::left_eye, OpeningKind::right_eye}) {
+    EXPECT_LE(measure(face, eye, bench::frame_of({{19, 1024.0F}, {20, 1024.0F}})).slit, 0.02);
+    EXPECT_LE(measure(face, eye, bench::frame_of({{19, 512.0F}, {20, 512.0F}, {21, 512.0F}, {22, 512.0F}})).slit, 0.02);
+  }
+  EXPECT_NEAR(measure(face, OpeningKind::left_eye, bench::frame_of({{19, 512.0F}})).slit, 0.6, 0.1);
+}
+
+TEST(Blink, LeavesAnEyeThatIsClosedAtRestAsItIs_AndItOpensInAnArc) {
   std::size_t closed = 0;
   for (const testing::FamilyMember& member : testing::sample_family()) {
     if (!member.traits.closed_eyes) continue;

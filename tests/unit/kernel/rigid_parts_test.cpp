@@ -113,6 +113,21 @@ TEST(Kernel_Lids, OfAnEyeThatIsClosedAtRest_CloseNoFarther_AndOpen) {
   expect_near(on_lid(rig, frame, on_circle(0.0F, -1.0), upper_lid), on_circle(0.0F, -1.0 + 0.01 * 749.0), 1e-3F);
 }
 
+// IRISD is the mean of both eyes: the wider one would stay open.
+TEST(Kernel_Lids, OfTheWiderOfTwoUnequalEyes_AreShutBy1024) {
+  TestRig rig;
+  with_lids(rig);
+  rig.rig.fapu[0] = 3.0F / 1024.0F;  // IRISD
+  semblante_frame frame{};
+  frame.fap[19] = 1024.0F;
+  expect_near(on_lid(rig, frame, on_circle(0.0F, 3.0), upper_lid), on_circle(0.0F, -1.0), 1e-5F);
+  frame.fap[19] = 512.0F;
+  expect_near(on_lid(rig, frame, on_circle(0.0F, 3.0), upper_lid), on_circle(0.0F, 1.0), 1e-5F);
+  frame.fap[19] = 0.0F;
+  frame.fap[21] = 1024.0F;
+  expect_near(on_lid(rig, frame, on_circle(0.0F, -1.0), lower_lid), on_circle(0.0F, 3.0), 1e-5F);
+}
+
 // The eyes of cartoons: a lid that opened by half of such a slit would leave the eyeball and show what is behind it.
 TEST(Kernel_Lids, OfAWideEye_OpenToOneRadianFromItsMiddle) {
   TestRig rig;
