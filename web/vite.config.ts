@@ -2,6 +2,7 @@ import { existsSync, readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { defineConfig, type Plugin } from 'vite';
 import { aliases } from './aliases.ts';
+import { followsLetters } from './letters.ts';
 import { serviceWorker } from './service_worker.ts';
 
 const here = (path: string): string => fileURLToPath(new URL(path, import.meta.url));
@@ -59,6 +60,7 @@ const server = process.env['SEMBLANTE_SERVER'] ?? 'http://127.0.0.1:8080';
 export default defineConfig({
   base: './',
   resolve: { alias: aliases, dedupe: ['three'] },
+  css: followsLetters,
   plugins: [runtimeAssets(), serviceWorker(here('offline/worker/studio.ts'))],
   build: {
     target: 'es2022',

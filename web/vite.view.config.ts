@@ -1,5 +1,6 @@
 import { fileURLToPath } from 'node:url';
 import { defineConfig, type Plugin } from 'vite';
+import { followsLetters } from './letters.ts';
 import { serviceWorker } from './service_worker.ts';
 
 const here = (path: string): string => fileURLToPath(new URL(path, import.meta.url));
@@ -29,6 +30,7 @@ export default defineConfig({
   resolve: {
     alias: [{ find: /^semblante\/(\w+)$/, replacement: `${process.env['SEMBLANTE_PACKAGE'] ?? here('../build/npm/semblante')}/dist/$1.js` }],
   },
+  css: followsLetters,
   plugins: [preloadWasm(), serviceWorker(here('offline/worker/view.ts'))],
   build: {
     outDir: here('dist/view'),

@@ -6,18 +6,19 @@ const padding = 0.3;
 
 /**
  * Words on a picture, `--semblante-captions-room` above its lower edge; a wide picture has room for buttons beside them. Sizes follow
- * the picture, so that a cue has two lines, on a narrow one three.
+ * the picture, so that a cue has two lines, on a narrow one three, and the letters that the browser is set to.
  */
 export const captionsStyle = `
 .captions {
   position: absolute; inset: 0; container: captions / size; pointer-events: none;
   display: flex; align-items: flex-end; justify-content: center;
+  font: 500 medium/${lineHeight} system-ui, sans-serif;
 }
 .captions > span {
   box-sizing: border-box; max-width: min(100cqi - 24px, 37em);
   margin: 0 12px calc(var(--semblante-captions-room, 12px) + env(safe-area-inset-bottom));
   padding: ${padding}em 0.7em; border-radius: 0.5em; background: rgb(14 14 16 / 0.8); color: #fff;
-  font: 500 clamp(16px, 1.1cqi + 1.1cqb, 28px)/${lineHeight} system-ui, sans-serif;
+  font-size: clamp(1em, 1.1cqi + 1.1cqb, 1.75em);
   text-align: center; text-wrap: balance; overflow-wrap: anywhere; hyphens: auto; unicode-bidi: plaintext;
 }
 .captions > span:empty { visibility: hidden; }

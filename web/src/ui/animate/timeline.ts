@@ -6,6 +6,7 @@ import { icon, type IconName } from '../shared/icons.ts';
 import { canIdle, setIdle, type Idle } from '../shared/idle.ts';
 import { capital, fapTitle } from '../shared/names.ts';
 import { dragCue, type CuePart } from './cue_drag.ts';
+import { lettersScale } from '../shared/rem.ts';
 import type { Toasts } from '../shared/toast.ts';
 import { TimelineModel } from './timeline_model.ts';
 import { visemeTitle } from './viseme_title.ts';
@@ -13,10 +14,11 @@ import { nameOf, t } from '../../words/words.ts';
 
 /** More cues than these are not drawn: each is a control of the page. */
 const mostCues = 3000;
+/** Pixels of a second at letters of the usual size, as `gripWidth`. */
 const scales = [20, 40, 80, 160, 320];
 /** Width of a cue's edge that lengthens it, pixels. */
 const edge = 8;
-/** Width of a grip beside the chosen cue, pixels, as in timeline.css. */
+/** Width of a grip beside the chosen cue, as in timeline.css. */
 const gripWidth = 44;
 const newCueLength = 400;
 
@@ -98,7 +100,11 @@ export class Timeline {
   }
 
   private get pixelsPerSecond(): number {
-    return scales[this.scale]!;
+    return scales[this.scale]! * lettersScale();
+  }
+
+  private get gripWidth(): number {
+    return gripWidth * lettersScale();
   }
 
   private x(ms: number): number {
@@ -157,7 +163,7 @@ export class Timeline {
   }
 
   private ruler(): HTMLElement {
-    const step = this.pixelsPerSecond >= 80 ? 1000 : 5000;
+    const step = scales[this.scale]! >= 80 ? 1000 : 5000;
     const marks = Array.from({ length: Math.floor(this.options.model.length / step) + 1 }, (_, i) => {
       const mark = h('span', { class: 'mark' }, formatTime(i * step));
       mark.style.left = `${this.x(i * step)}px`;
@@ -248,8 +254,8 @@ export class Timeline {
     this.end.value = (end / 1000).toFixed(2);
     const [before, after] = this.grips;
     if (!before || !after) return;
-    before.hidden = this.x(start) < gripWidth; // it would be outside of the track
-    before.style.left = `${this.x(start) - gripWidth}px`;
+    before.hidden = this.x(start) < this.gripWidth; // it would be outside of the track
+    before.style.left = `${this.x(start) - this.gripWidth}px`;
     after.style.left = `${this.x(end)}px`;
   }
 

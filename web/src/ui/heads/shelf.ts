@@ -11,6 +11,7 @@ import { headSize } from './head_size.ts';
 import { stateInWords } from './head_state.ts';
 import { icon } from '../shared/icons.ts';
 import { progressBar } from '../shared/progress_bar.ts';
+import { rem } from '../shared/rem.ts';
 import { rove } from '../shared/roving.ts';
 import type { Activity, Studio } from '../shared/studio.ts';
 import { serverWords, t } from '../../words/words.ts';
@@ -37,7 +38,7 @@ export class Shelf {
   });
   private readonly search = h('div', { class: 'search', hidden: true }, icon('search', 16), this.words);
 
-  private readonly low = matchMedia('(max-height: 820px)');
+  private readonly low = matchMedia(`(max-height: ${rem(820)})`);
 
   /** Opens the chooser of model files. */
   readonly choose = (): void => this.input.click();
@@ -207,7 +208,7 @@ export class Shelf {
           h(
             'span',
             { class: 'thumb' },
-            picture ? h('img', { src: picture, alt: '', width: 44, height: 44 }) : icon('head', 24),
+            picture ? h('img', { src: picture, alt: '' }) : icon('head', 24),
           ),
           activity ? null : findingBadge(model.findings),
         ),

@@ -1,6 +1,7 @@
 import { h, replace } from '../shared/dom.ts';
 import { findingBadge } from '../shared/finding_badge.ts';
 import { icon, type IconName } from '../shared/icons.ts';
+import { rem } from '../shared/rem.ts';
 import type { Studio, Tab } from '../shared/studio.ts';
 import { t } from '../../words/words.ts';
 
@@ -23,7 +24,7 @@ const tabs: { tab: Tab; title: string; icon: IconName }[] = [
 export const tabTitle = (tab: Tab): string => tabs.find((one) => one.tab === tab)!.title;
 
 /** Whether the shelf is a tab of its own. */
-export const isNarrow = (): MediaQueryList => matchMedia('(max-width: 1080px)');
+export const isNarrow = (): MediaQueryList => matchMedia(`(max-width: ${rem(1080)})`);
 
 /** Bar, shelf, stage and inspector; on a narrow page the shelf is one of the tabs. */
 export function makeLayout(studio: Studio, panels: Panels, stage: readonly HTMLElement[], extras: HTMLElement, notes: readonly HTMLElement[]): HTMLElement {
@@ -121,7 +122,7 @@ export function makeLayout(studio: Studio, panels: Panels, stage: readonly HTMLE
       h(
         'a',
         { class: 'brand', href: './' },
-        h('img', { src: './favicon.svg', alt: '', width: 26, height: 26 }),
+        h('img', { src: './favicon.svg', alt: '' }),
         h('h1', {}, 'Semblante'),
       ),
       crumb,

@@ -1,4 +1,5 @@
 import { svg } from './dom.ts';
+import { rem } from './rem.ts';
 
 /** Line icons on a grid of 20. */
 const paths = {
@@ -54,13 +55,14 @@ const paths = {
 
 export type IconName = keyof typeof paths;
 
+/** `size`: of its square, in pixels at letters of the usual size. */
 export function icon(name: IconName, size = 18): SVGElement {
   return svg(
     'svg',
     {
       viewBox: '0 0 20 20',
-      width: size,
-      height: size,
+      width: rem(size),
+      height: rem(size),
       fill: 'none',
       stroke: 'currentColor',
       'stroke-width': name === 'more' ? 2.4 : 1.5,
