@@ -1,4 +1,5 @@
 import { beforeAll, describe, expect, test } from 'vitest';
+import { fitsThePage } from './support/checks/fits_the_page.ts';
 import { sampleHead } from './support/paths.ts';
 import { StudioPage } from './support/studio_page.ts';
 import { browser, server, useStudio } from './support/suite.ts';
@@ -60,6 +61,31 @@ describe('controls', () => {
     expect(await page.evaluate(() => (document.activeElement as HTMLElement).dataset['point'])).toBe('2.2');
     await page.keyboard.press('End');
     expect(await page.evaluate(() => (document.activeElement as HTMLElement).dataset['point'])).toBe('11.6');
+    expect(studio.errors).toEqual([]);
+    await studio.close();
+  });
+
+  test('Page_OfAPhoneWithLettersOf24Pixels_CutsNoWordsOff', async () => {
+    // Larger letters do what a zoom does: 390 pixels are as wide as 260 are at the usual size.
+    const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { width: 260, height: 563 });
+    const { page } = studio;
+    await studio.waitForStage('ready');
+    for (const tab of ['heads', 'fit', 'points', 'live', 'animate']) {
+      await page.locator(`#tab-${tab}`).click();
+      expect(await fitsThePage.faults(studio), tab).toEqual([]);
+    }
+    const wide = (words: string): Promise<string[]> =>
+      page.locator(words).evaluateAll((all) => all.filter((one) => one.scrollWidth > one.clientWidth).map((one) => one.textContent!));
+    expect(await wide('.tab')).toEqual([]);
+    await page.getByRole('button', { name: 'Code', exact: true }).click();
+    await page.locator('dialog[open]').waitFor();
+    expect(await wide('dialog .segments button')).toEqual([]);
+    expect(await fitsThePage.faults(studio), 'programs').toEqual([]);
+    await page.keyboard.press('Escape');
+    await page.locator('#tab-heads').click();
+    await page.locator('.head-actions button').last().click();
+    const [cancel] = await page.locator('dialog .row.end button').evaluateAll((all) => all.map((one) => one.clientHeight));
+    expect(cancel, 'its word is in one line').toBeLessThan(40);
     expect(studio.errors).toEqual([]);
     await studio.close();
   });
