@@ -54,6 +54,11 @@ describe('controls', () => {
       expect(unseen, tab).toEqual([]);
       expect(stops, tab).toBeLessThanOrEqual(most[tab]);
     }
+    // A control that removes itself leaves the focus in its place, not at the beginning of the page.
+    await page.locator('[aria-label="Delete stream Mine"]').focus();
+    for (const key of ['Enter', 'Tab', 'Enter']) await page.keyboard.press(key);
+    await page.locator('[data-stream]').waitFor({ state: 'detached' });
+    expect(await page.evaluate(() => document.activeElement!.getAttribute('aria-label'))).toBe('New stream');
     // The arrow keys lead through a list that is one stop.
     await page.locator('#tab-points').click();
     await page.locator('[data-point="2.1"]').focus();

@@ -29,6 +29,7 @@ import { InfluenceModel } from './ui/influence/influence_model.ts';
 import { InfluencePanel } from './ui/influence/influence_panel.ts';
 import { InfluenceReader } from './ui/influence/influence_reader.ts';
 import { exposeInspection } from './ui/page/inspect.ts';
+import { keepFocus } from './ui/page/kept_focus.ts';
 import { makeLayout } from './ui/page/layout.ts';
 import { keySheetButton } from './ui/page/key_sheet.ts';
 import { languageSelect } from './ui/page/language.ts';
@@ -200,6 +201,7 @@ function main(root: HTMLElement, base: string, session: Session | null, theme: H
   const layout = makeLayout(studio, panels, [stagePanel.element, compare.seat], extras, [offlineNote(api.base, () => void back()), signedOutNote(api.base, () => void back())]);
   layout.append(progressSaid(studio, scene), toasts.element);
   root.replaceChildren(layout);
+  keepFocus(layout);
 
   scene.animate = (delta) => driver.step(delta);
   live.subscriber.watch((subscriber) => driver.setClient(subscriber?.client ?? null));
