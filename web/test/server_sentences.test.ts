@@ -209,7 +209,7 @@ test.each([
     'MW0 não pode ser medida: 8.3 e 8.4 não estão marcados; sem ela não fazem nada: FAPs da boca, mandíbula e língua, para os lados (6, 7, 15, 43, 45, 53, 54)',
   ],
   ['The model is 2 tall, which fits no unit: metres are assumed; this is not certain', 'O modelo tem 2 de altura, o que não serve a nenhuma unidade: supõem-se metros; isto não é certo'],
-  ['The marked eyes are 0.064 apart: 64 mm if the unit is m; this is not certain', 'Entre os olhos marcados há 0.064: 64 mm se a unidade é m; isto não é certo'],
+  ['The marked eyes are 0.064 apart: 64 mm if the unit is m; this is not certain', 'Entre os olhos marcados há 0,064: 64 mm se a unidade é m; isto não é certo'],
   ['line 7: more values than flags: the last are dropped (3 times)', 'linha 7: mais valores que sinalizadores: os últimos não contam (3 vezes)'],
   ["there is no model $& 'a'", "não há cabeça $& 'a'"],
   ['f refers to texture coordinate 12, but there are 3', 'f cita a coordenada de textura 12, mas há 3'],
