@@ -163,6 +163,20 @@ test('Points_OfAHeadTurnedByAnother_AreReadAgain', async () => {
   expect(points.draft.canUndo).toBe(false);
 });
 
+test('File_ChosenWhileItsHeadIsRead_IsTakenWhenItHasBeenRead', async () => {
+  const server = new Server();
+  server.points = {};
+  const { points, said, problems } = await open(server);
+  await points.open(importingModel({ id: 'ana', name: 'Ana' }));
+  await points.importFile(new File([JSON.stringify({ points: { '2.1': at(5) } })], 'ana.fps.json'));
+  expect(server.points).toEqual({});
+  expect(said).toEqual(['ana.fps.json is taken when the head has been read.']);
+  await points.open(ana);
+  expect(vertices(points.draft.points)).toEqual({ '2.1': 5 });
+  expect(vertices(new Map(Object.entries(server.points)))).toEqual({ '2.1': 5 });
+  expect(problems).toEqual([]);
+});
+
 test('File_WithRefusedPoints_IsSaidAndTheOthersCanBeTaken', async () => {
   const server = new Server();
   const { points, said, problems, actions } = await open(server);

@@ -147,6 +147,7 @@ export const portuguesePoints = {
   'Fill the missing side by mirroring': 'Preencher por espelho o lado que falta',
   'No point is placed yet.': 'Nenhum ponto está colocado ainda.',
   'Every point has its other side already.': 'Todo ponto já tem seu outro lado.',
+  '{name} is taken when the head has been read.': '{name} entra quando a cabeça tiver sido lida.',
   'The head is still being read.': 'A cabeça ainda está sendo lida.',
   'A face needs feature points, and none is placed.': 'Um rosto precisa de pontos característicos, e nenhum está colocado.',
   'Place the first': 'Colocar o primeiro',

@@ -53,6 +53,9 @@ export class PointsModel {
   /** The place on the head for point `id` at the image of another, `middle` being the middle of the head; null: none is near. */
   imageOf: (id: string, of: PlacedPoint, middle: number) => PlacedPoint | null = () => null;
 
+  /** A file of points that was chosen while its head was being read. */
+  private waiting: { head: string; file: File } | null = null;
+
   constructor(
     private readonly studio: Studio,
     private readonly drafts: DraftStore,
@@ -82,8 +85,13 @@ export class PointsModel {
       const answer = await this.studio.api.getFeaturePoints(model.id);
       if (this.model === model) this.take(answer.value, answer.etag, true);
     });
+    if (this.model !== model) return;
     // Without the server's points the kept ones are shown all the same.
-    if (this.model === model) this.bringBack(model.id, isRead);
+    this.bringBack(model.id, isRead);
+    const { waiting } = this;
+    if (waiting?.head !== model.id) return;
+    this.waiting = null;
+    await this.importFile(waiting.file);
   }
 
   /**
@@ -344,8 +352,13 @@ export class PointsModel {
     return done;
   }
 
-  /** Uploads a file of the form {"points": {"2.1": {"vertex": 12, "position": [..]}}}; the server validates it. */
+  /** Uploads a file of the form {"points": {"2.1": {"vertex": 12, "position": [..]}}}; the server validates it. While the head is being read it waits. */
   async importFile(file: File): Promise<boolean> {
+    if (this.model?.state === 'importing') {
+      this.waiting = { head: this.model.id, file };
+      this.studio.toasts.say(t('{name} is taken when the head has been read.', { name: file.name }));
+      return false;
+    }
     let body: FeaturePointsBody;
     try {
       body = JSON.parse(await file.text()) as FeaturePointsBody;
