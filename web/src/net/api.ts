@@ -2,6 +2,7 @@ import { streamUrl, type FaceFrame } from '@client/index.ts';
 import { decodeJson } from '@protocol/json_codec.ts';
 import { requestBlob, requestBytes, requestBytesUpTo, requestJson, type Answer } from './http.ts';
 import { mediaTypeOf } from './model_formats.ts';
+import { ApiError } from './problem.ts';
 import type {
   AbsentFap,
   ExtractionOptions,
@@ -103,7 +104,14 @@ export class Api {
   }
 
   async deleteExpression(id: string): Promise<void> {
-    await requestJson(`${this.base}/v1/expressions/${segment(id)}`, { method: 'DELETE' });
+    await this.remove(`expressions/${segment(id)}`);
+  }
+
+  /** Deletes something; what another page has deleted meanwhile is gone as it should be. */
+  private async remove(path: string, keepalive = false): Promise<void> {
+    await requestJson(`${this.base}/v1/${path}`, { method: 'DELETE', keepalive }).catch((error: unknown) => {
+      if (!(error instanceof ApiError && error.problem.status === 404)) throw error;
+    });
   }
 
   private async patchAndJob(id: string, edit: ModelEdit): Promise<{ model: Model; job: Job | null }> {
@@ -133,7 +141,7 @@ export class Api {
   }
 
   async deleteModel(id: string): Promise<void> {
-    await requestJson(`${this.base}/v1/models/${segment(id)}`, { method: 'DELETE' });
+    await this.remove(`models/${segment(id)}`);
   }
 
   /** Has a text spoken; resolves when sound and face are made. */
@@ -168,7 +176,7 @@ export class Api {
 
   async deleteSpeech(id: string): Promise<void> {
     // A page that closes sends it too.
-    await requestJson(`${this.base}/v1/speeches/${segment(id)}`, { method: 'DELETE', keepalive: true });
+    await this.remove(`speeches/${segment(id)}`, true);
   }
 
   previewUrl(id: string): string {
@@ -258,7 +266,7 @@ export class Api {
   }
 
   async deleteStream(id: string, keepalive = false): Promise<void> {
-    await requestJson(`${this.base}/v1/streams/${segment(id)}`, { method: 'DELETE', keepalive });
+    await this.remove(`streams/${segment(id)}`, keepalive);
   }
 
   /** Starts playing a performance document into a stream. */
@@ -310,7 +318,7 @@ export class Api {
   }
 
   async deleteRecording(id: string): Promise<void> {
-    await requestJson(`${this.base}/v1/recordings/${segment(id)}`, { method: 'DELETE' });
+    await this.remove(`recordings/${segment(id)}`);
   }
 
   /** `model`: the head that a GLB clip animates; other formats ignore it. */
