@@ -41,10 +41,19 @@ describe('feature points', () => {
     await studio.waitForState('ready');
     await studio.waitForStage('ready');
     await page.locator('#tab-points').click();
-    const start = (await page.getByRole('button', { name: 'Start', exact: true }).boundingBox())!;
+    const find = page.getByRole('button', { name: 'Find the points' });
+    const box = (await find.boundingBox())!;
     const foot = (await page.locator('.points .panel-foot').boundingBox())!;
     await studio.keep('points-phone-start');
-    expect(start.y + start.height).toBeLessThanOrEqual(foot.y);
+    expect(box.y + box.height).toBeLessThanOrEqual(foot.y);
+
+    // The shape of the face shows them: nobody has marked one.
+    await find.tap();
+    await page.getByRole('button', { name: 'Confirm all' }).waitFor();
+    const found = await stored(studio);
+    expect(Object.keys(found).length).toBeGreaterThan(75);
+    expect(Object.values(found).every((point) => point.proposed)).toBe(true);
+    expect(found['3.1']!.vertex).toBe(known['3.1']!.vertex);
     expect(studio.errors).toEqual([]);
     await studio.close();
   });
