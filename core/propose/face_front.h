@@ -27,6 +27,8 @@ class FaceFront {
  public:
   /// The face reaches this far to either side.
   static constexpr double half_width = 1.5;
+  /// The x of its middle: edges that lie along 0 are cut by no column there.
+  static constexpr double middle = 1e-4;
 
   /// `frame` maps positions of `surface` to the frame; `triangles` are of file vertices. Keeps references to all but
   /// the triangles.

@@ -58,7 +58,7 @@ std::vector<Part> with_lids_as_skin(std::span<const Part> parts) {
 
 /// The most forward place of the middle between the eyes and the mouth, if it stands out.
 std::optional<SeenSpot> find_nose(const FaceFront& front, double low) {
-  const FrontColumn column = front.column(1e-4);
+  const FrontColumn column = front.column(FaceFront::middle);
   std::optional<glm::dvec3> tip;
   double first = -std::numeric_limits<double>::infinity();
   double last = first;
@@ -155,6 +155,29 @@ class Found {
   std::vector<FoundPoint> points_;
 };
 
+struct PointsOfEye {
+  std::string_view pupil, upper, lower, left, right;
+};
+constexpr PointsOfEye points_of_left_eye = {"3.5", "3.1", "3.3", "3.7", "3.11"};
+constexpr PointsOfEye points_of_right_eye = {"3.6", "3.2", "3.4", "3.8", "3.12"};
+
+glm::dvec3 centre_of(const Part& part) { return 0.5 * (glm::dvec3(part.box_min) + glm::dvec3(part.box_max)); }
+double radius_of(const Part& eye, const Similarity& frame) {
+  return 0.5 * frame.scale * double(eye.box_max.y - eye.box_min.y);
+}
+
+/// `pupil`: in the model's frame.
+void find_eye(Found& found, const FaceFront& front, const glm::dvec3& pupil, const Similarity& frame, const Part& eye,
+              const PointsOfEye& points) {
+  found.add_at(points.pupil, std::nullopt, pupil, noise_of_pupil);
+  const auto opening = find_opening(front, frame(centre_of(eye)), radius_of(eye, frame));
+  if (!opening) return;
+  found.add(points.upper, opening->upper, noise_of_middle);
+  found.add(points.lower, opening->lower, noise_of_middle);
+  found.add(points.left, opening->left, noise_of_corner);
+  found.add(points.right, opening->right, noise_of_corner);
+}
+
 }  // namespace
 
 Result<std::vector<FoundPoint>> find_points_by_shape(const Surface& surface, std::span<const Part> described,
@@ -163,7 +186,6 @@ Result<std::vector<FoundPoint>> find_points_by_shape(const Surface& surface, std
   const Part* const left = largest_with(parts, PartRole::left_eye);
   const Part* const right = largest_with(parts, PartRole::right_eye);
   if (left == nullptr || right == nullptr) return refused("the model has no two eyeballs that are parts of their own");
-  const auto centre_of = [](const Part& part) { return 0.5 * (glm::dvec3(part.box_min) + glm::dvec3(part.box_max)); };
   const glm::dvec3 apart = centre_of(*left) - centre_of(*right);
   constexpr double side_by_side = 0.95;  // cosine
   if (!(apart.x > side_by_side * glm::length(apart)))
@@ -174,26 +196,14 @@ Result<std::vector<FoundPoint>> find_points_by_shape(const Surface& surface, std
   frame.from = 0.5 * (centre_of(*left) + centre_of(*right));
   const FaceFront front(surface, parts, triangles, frame);
   const FaceSurface face(surface, parts, frame, triangles);
-  const auto to_model = [&](const glm::dvec3& place) { return frame.from + place / frame.scale; };
+  const auto pupil_of = [&](const Part& eye) {
+    const glm::dvec3 front_of_ball = frame(centre_of(eye)) + glm::dvec3(0.0, 0.0, radius_of(eye, frame));
+    return frame.from + find_pupil(face, parts, eye.role, front_of_ball) / frame.scale;
+  };
 
   Found found(surface);
-  struct EyePoints {
-    const Part& part;
-    std::string_view pupil, upper, lower, left, right;
-  };
-  for (const EyePoints& eye :
-       {EyePoints{*left, "3.5", "3.1", "3.3", "3.7", "3.11"}, EyePoints{*right, "3.6", "3.2", "3.4", "3.8", "3.12"}}) {
-    const glm::dvec3 centre = frame(centre_of(eye.part));
-    const double radius = 0.5 * frame.scale * double(eye.part.box_max.y - eye.part.box_min.y);
-    const glm::dvec3 pupil = find_pupil(face, parts, eye.part.role, centre + glm::dvec3(0.0, 0.0, radius));
-    found.add_at(eye.pupil, std::nullopt, to_model(pupil), noise_of_pupil);
-    const auto opening = find_opening(front, centre, radius);
-    if (!opening) continue;
-    found.add(eye.upper, opening->upper, noise_of_middle);
-    found.add(eye.lower, opening->lower, noise_of_middle);
-    found.add(eye.left, opening->left, noise_of_corner);
-    found.add(eye.right, opening->right, noise_of_corner);
-  }
+  find_eye(found, front, pupil_of(*left), frame, *left, points_of_left_eye);
+  find_eye(found, front, pupil_of(*right), frame, *right, points_of_right_eye);
   const auto mouth = find_seen_mouth(front);
   if (const auto nose = find_nose(front, mouth ? mouth->middle.upper.place.y + above_mouth : nose_bottom))
     found.add("9.3", *nose, noise_of_nose);

@@ -139,9 +139,8 @@ SeenLips follow_lips(const FaceFront& front, const SeenLips& from, double step) 
 }  // namespace
 
 std::optional<SeenMouth> find_seen_mouth(const FaceFront& front) {
-  constexpr double beside_middle = 1e-4;  // edges along the middle are in no column at 0
   std::optional<SeenMouth> widest;
-  for (const SeenLips& middle : lips_at(front, beside_middle, mouth_top, mouth_bottom)) {
+  for (const SeenLips& middle : lips_at(front, FaceFront::middle, mouth_top, mouth_bottom)) {
     const auto corner = [&](double side) {
       return follow_lips(front, follow_lips(front, middle, side * step_aside), side * fine_step_aside);
     };
