@@ -54,7 +54,7 @@ void add_deform_command(CLI::App& app) {
   auto options = std::make_shared<DeformCommand>();
   CLI::App* const command =
       app.add_subcommand("deform", "Write a head in one face as OBJ, or in the faces of a file as a mesh each");
-  add_head_options(*command, options->head);
+  add_head_options(*command, options->head, PointsOption::found);
   FaceOptions& face = options->face;
   CLI::Option* const faps = command->add_option("--faps", face.faps, "Low-level FAPs in FAP units: \"3=200,19=512\"")
                                 ->envname("SEMBLANTE_FAPS");

@@ -9,6 +9,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "core/anatomy/part_roles.h"
 #include "core/parametrize/fapu.h"
 #include "core/propose/propose.h"
 #include "server/cli/command_failure.h"
@@ -54,12 +55,40 @@ std::vector<std::string> advice_on(const std::vector<MarkedPoint>& marked) {
   return advice;
 }
 
+/// The head with the points that the shape of its face shows, as proposals.
+MarkedHead find_points(MarkedHead head, const HeadOptions& options) {
+  const auto parts = describe_parts(head.model, head.surface, head.points);
+  const auto proposals = propose_feature_points(head.surface, parts, head.points, reference_heads(),
+                                                head.model.neck_joints, head.model.triangles);
+  if (!proposals) {
+    Error told = proposals.error();
+    told.message += "; --feature-points takes a file of them";
+    fail(options.model_path, told);
+  }
+  MarkRequest request;
+  request.fapu_by_user = head.fapu_by_user;
+  for (const Proposal& proposal : proposals->points) {
+    MarkedPoint& marked = request.points.emplace_back();
+    marked.id = proposal.point.id;
+    marked.proposed = true;
+    if (proposal.point.vertex)
+      marked.vertex = proposal.point.vertex->value();
+    else
+      marked.position = glm::dvec3(proposal.point.position);
+  }
+  auto found = mark_head(std::move(head), std::move(request));
+  if (!found) fail(options.model_path, found.error());
+  return std::move(*found);
+}
+
 std::vector<std::string> model_format_names() {
   std::vector<std::string> names;
   names.reserve(model_formats.size());
   for (const auto& format : model_formats) names.emplace_back(format.name);
   return names;
 }
+
+constexpr const char* found_without = "; without it those that the shape of the face shows";
 
 /// --unit, --up and --front.
 void add_placing_options(CLI::App& command, HeadOptions& options) {
@@ -137,8 +166,9 @@ void add_file_options(CLI::App& command, HeadOptions& options, PointsOption poin
       ->envname("SEMBLANTE_MODEL");
   command
       .add_option("--feature-points,--points", options.feature_points_path,
-                  "JSON: {\"points\": {\"2.1\": {\"vertex\": 966}, ...}}, vertices as the model file numbers them, or "
-                  "positions")
+                  std::string("JSON: {\"points\": {\"2.1\": {\"vertex\": 966}, ...}}, vertices as the model file "
+                              "numbers them, or positions") +
+                      (points == PointsOption::found ? found_without : ""))
       ->required(points == PointsOption::required)
       ->envname("SEMBLANTE_FEATURE_POINTS");
   command.add_option("--format", options.format, "Format of MODEL, instead of what its content shows")
@@ -157,11 +187,11 @@ void add_head_options(CLI::App& command, HeadOptions& options, PointsOption poin
 void add_named_head_options(CLI::App& command, HeadOptions& options) {
   CLI::Option* const model =
       command.add_option("--model", options.model_path, "A head: " + model_file_titles())->envname("SEMBLANTE_MODEL");
-  CLI::Option* const points =
-      command.add_option("--feature-points,--points", options.feature_points_path, "Its feature points, as JSON")
-          ->needs(model)
-          ->envname("SEMBLANTE_FEATURE_POINTS");
-  model->needs(points);
+  command
+      .add_option("--feature-points,--points", options.feature_points_path,
+                  std::string("Its feature points, as JSON") + found_without)
+      ->needs(model)
+      ->envname("SEMBLANTE_FEATURE_POINTS");
   command.add_option("--model-format", options.format, "Format of the head, instead of what its content shows")
       ->check(CLI::IsMember(model_format_names()))
       ->envname("SEMBLANTE_MODEL_FORMAT");
@@ -210,7 +240,13 @@ RigRequest rig_request(const HeadOptions& options) {
 Head load_head(const HeadOptions& options) {
   HeadFiles files = read_head(options);
   auto advice = advice_on(files.points.points);
-  return {rig(place_points(std::move(files), options), options), std::move(advice)};
+  MarkedHead head = place_points(std::move(files), options);
+  if (options.feature_points_path.empty()) {
+    head = find_points(std::move(head), options);
+    advice = {std::to_string(head.points.size()) +
+              " feature points are found by the shape of the face; `semblante propose` writes them for a correction"};
+  }
+  return {rig(std::move(head), options), std::move(advice)};
 }
 
 std::vector<std::string> Head::all_warnings() const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,7 +27,9 @@ struct HeadOptions {
   bool quiet = false;
 };
 
-enum class PointsOption : bool { required, optional };
+/// What a command does without a file of points: not at all, without points, or with those that the shape of the face
+/// shows.
+enum class PointsOption : std::uint8_t { required, optional, found };
 
 /// Declares MODEL, --feature-points, --format, --unit, --up, --front and --quiet.
 void add_file_options(CLI::App& command, HeadOptions& options, PointsOption points = PointsOption::required);
@@ -64,7 +67,8 @@ struct Head : RiggedHead {
   [[nodiscard]] std::vector<std::string> all_warnings() const;
 };
 
-/// read_head, place_points and rig.
+/// read_head, place_points and rig; without a file of points it takes those that the shape of
+/// the face shows.
 Head load_head(const HeadOptions& options);
 
 /// Prints "semblante: warning: ..." on stderr. To be called at the end, so that a failure prints only one line.

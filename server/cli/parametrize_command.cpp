@@ -143,7 +143,7 @@ void add_parametrize_command(CLI::App& app) {
   auto options = std::make_shared<ParametrizeCommand>();
   CLI::App* const command =
       app.add_subcommand("parametrize", "Compute the weights of a head, once, for all its frames");
-  add_head_options(*command, options->head);
+  add_head_options(*command, options->head, PointsOption::found);
   command
       ->add_option("--weights-json", options->weights_json,
                    "Write the weights of every file vertex as JSON, with their method and whether they are W of Eq. 4 "

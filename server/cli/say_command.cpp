@@ -240,8 +240,6 @@ void add_say_command(CLI::App& app, const std::string& sample_head) {
       ->envname("SEMBLANTE_FPS");
   add_clip_options(*command, options->clip);
   command->add_flag("--quiet", options->quiet, "No warnings")->envname("SEMBLANTE_QUIET");
-  CLI::Option* const points = command->get_option("--feature-points");
-  command->get_option("--model")->remove_needs(points);  // the sample head has its own
   command->callback([options, sample_head, command] {
     HeadOptions& head = options->clip.head;
     if (head.model_path == "sample" && !std::filesystem::exists("sample")) {
@@ -249,11 +247,9 @@ void add_say_command(CLI::App& app, const std::string& sample_head) {
         throw CommandFailure(CommandFailure::bad_input, "say: --model sample: the sample head is not installed");
       head.model_path = sample_head;
       head.feature_points_path = std::filesystem::path(sample_head).replace_extension(".fps.json").string();
-      // Weights of the paper close lips less well: a head that speaks has smooth ones.
-      if (command->get_option("--weights")->count() == 0) head.weights = "smooth";
     }
-    if (!head.model_path.empty() && head.feature_points_path.empty())
-      throw CommandFailure(CommandFailure::bad_input, "say: --model requires --feature-points");
+    // Weights of the paper close lips less well: a head that speaks has smooth ones.
+    if (command->get_option("--weights")->count() == 0) head.weights = "smooth";
     run(*options);
   });
 }

@@ -66,11 +66,22 @@ TEST_F(ConvertToClip, OfAHeadOrOfItsPackage_IsOneFile) {
   EXPECT_EQ(model->images.size(), original->images.size());
 }
 
+TEST_F(ConvertToClip, OfAHeadWithoutPoints_TakesThoseOfItsShape) {
+  const Outcome outcome = convert("found.glb", {"--model", head, "--weights", "smooth"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("feature points are found by the shape of the face"), std::string::npos) << outcome.err;
+  // The same as with the file that `propose` writes.
+  ASSERT_EQ(run_semblante({"propose", head, "--out", work.path("found.fps.json")}).exit_code, 0);
+  ASSERT_EQ(
+      convert("given.glb", {"--model", head, "--weights", "smooth", "--points", work.path("found.fps.json")}).exit_code,
+      0);
+  EXPECT_EQ(read_text(work.path("found.glb")), read_text(work.path("given.glb")));
+}
+
 TEST_F(ConvertToClip, WithoutAFace_OrWithTwo_IsRefused) {
   Outcome outcome = convert("x.glb", {});
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_NE(outcome.err.find("a clip needs a face"), std::string::npos) << outcome.err;
-  EXPECT_EQ(convert("x.glb", {"--model", head}).exit_code, 2);
   EXPECT_EQ(convert("x.glb", {"--model", head, "--points", points, "--package", work.path("p")}).exit_code, 2);
   EXPECT_EQ(convert("x.glb", {"--model", head, "--points", points, "--influences", "5"}).exit_code, 2);
   outcome = convert("x.glb", {"--package", work.path("nowhere")});
