@@ -62,7 +62,8 @@ std::optional<SeenSpot> find_nose(const FaceFront& front, double low) {
   std::optional<glm::dvec3> tip;
   double first = -std::numeric_limits<double>::infinity();
   double last = first;
-  for (double y = nose_top; y > low; y -= nose_step) {
+  for (int k = 0; nose_top - k * nose_step > low; ++k) {
+    const double y = nose_top - k * nose_step;
     const auto seen = column.at(y);
     if (!seen || !seen->is_skin) continue;
     if (std::isinf(first)) first = seen->z;

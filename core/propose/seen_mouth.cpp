@@ -83,7 +83,8 @@ class SkinLine {
 /// behind the skin above it and below it.
 std::vector<SkinLine::Place> front_of(const FrontColumn& column, double x, double high, double low) {
   std::vector<SkinLine::Place> seen;
-  for (double y = high; y > low; y -= step_down) {
+  for (int k = 0; high - k * step_down > low; ++k) {
+    const double y = high - k * step_down;
     if (const auto at = column.at(y); at && at->is_skin) seen.push_back({at->piece, {x, y, at->z}});
   }
   const auto is_inside = [&](const SkinLine::Place& place) {
