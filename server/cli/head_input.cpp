@@ -9,9 +9,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "core/anatomy/part_roles.h"
 #include "core/parametrize/fapu.h"
-#include "core/propose/propose.h"
+#include "core/pipeline/proposed.h"
 #include "server/cli/command_failure.h"
 #include "server/cli/files.h"
 #include "server/cli/folder_resources.h"
@@ -57,9 +56,7 @@ std::vector<std::string> advice_on(const std::vector<MarkedPoint>& marked) {
 
 /// The head with the points that the shape of its face shows, as proposals.
 MarkedHead find_points(MarkedHead head, const HeadOptions& options) {
-  const auto parts = describe_parts(head.model, head.surface, head.points);
-  const auto proposals = propose_feature_points(head.surface, parts, head.points, reference_heads(),
-                                                head.model.neck_joints, head.model.triangles);
+  const auto proposals = propose_points(head);
   if (!proposals) {
     Error told = proposals.error();
     told.message += "; --feature-points takes a file of them";

@@ -6,8 +6,7 @@
 #include <glm/matrix.hpp>
 #include <nlohmann/json.hpp>
 
-#include "core/anatomy/part_roles.h"
-#include "core/propose/propose.h"
+#include "core/pipeline/proposed.h"
 #include "server/cli/command_failure.h"
 #include "server/cli/commands.h"
 #include "server/cli/files.h"
@@ -66,9 +65,7 @@ void run(const ProposeCommand& options) {
   // Proposals of an earlier run are replaced by new ones from the points that a user placed.
   std::erase_if(files.points.points, [](const MarkedPoint& point) { return point.proposed; });
   const MarkedHead head = place_points(std::move(files), options.head);
-  const auto parts = describe_parts(head.model, head.surface, head.points);
-  const auto proposals = propose_feature_points(head.surface, parts, head.points, reference_heads(),
-                                                head.model.neck_joints, head.model.triangles);
+  const auto proposals = propose_points(head);
   if (!proposals) {
     const std::string& points = options.head.feature_points_path;
     fail(points.empty() ? options.head.model_path : points, proposals.error());

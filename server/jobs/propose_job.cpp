@@ -5,8 +5,7 @@
 #include <glm/matrix.hpp>
 #include <nlohmann/json.hpp>
 
-#include "core/anatomy/part_roles.h"
-#include "core/propose/propose.h"
+#include "core/pipeline/proposed.h"
 #include "server/jobs/request_head.h"
 #include "server/jobs/result_facts.h"
 #include "server/jobs/result_files.h"
@@ -48,9 +47,7 @@ Result<ProposeJob::Outcome> ProposeJob::run(const Request& request, const InputF
   const auto head = mark_source(std::move(*imported), request.head, part_of(progress, 0.5, 0.8));
   if (!head) return head.error();
   if (auto told = report_progress(progress, 0.8, "proposals"); !told) return told.error();
-  const auto parts = describe_parts(head->model, head->surface, head->points, head->roles_by_user);
-  const auto proposals = propose_feature_points(head->surface, parts, head->points, reference_heads(),
-                                                head->model.neck_joints, head->model.triangles);
+  const auto proposals = propose_points(*head);
   if (!proposals) return proposals.error();
 
   Outcome outcome;
