@@ -75,8 +75,9 @@ PartId piece_with_most(const Surface& surface, const FeaturePointSet& points) {
   return PartId(static_cast<std::uint32_t>(std::max_element(count.begin(), count.end()) - count.begin()));
 }
 
-Proposal proposal_of(const FeaturePoint& point, ProposalMethod method, double error) {
-  const double radius = nine_in_ten * error;
+/// `spacing`: mean length of the edges at the point's vertex, if it has one.
+Proposal proposal_of(const FeaturePoint& point, ProposalMethod method, double error, std::optional<double> spacing) {
+  const double radius = nine_in_ten * (spacing ? std::hypot(error, between_vertices * *spacing) : error);
   const Confidence confidence = radius < surely  ? Confidence::high
                                 : radius < about ? Confidence::medium
                                                  : Confidence::low;
@@ -285,8 +286,8 @@ void Draft::settle(std::size_t id, const Spot& spot, ProposalMethod method, doub
     anchors_.push_back({id_of(id), SurfaceVertexId(*spot.vertex), head_.surface.positions[*spot.vertex]});
   }
   if (method != ProposalMethod::mirror) error = std::hypot(error, difference_between_heads(id_of(id)));
-  if (spot.vertex) error = std::hypot(error, between_vertices * face_.spacing(*spot.vertex));
-  Proposal proposal = proposal_of({id_of(id), std::nullopt}, method, error);
+  const auto spacing = spot.vertex ? std::optional(face_.spacing(*spot.vertex)) : std::nullopt;
+  Proposal proposal = proposal_of({id_of(id), std::nullopt}, method, error, spacing);
   if (!doubt.empty()) proposal.confidence = std::max(proposal.confidence, Confidence::medium);
   proposal.remark = std::move(doubt);
   if (spot.vertex) {
@@ -310,13 +311,10 @@ void Draft::refuse(std::size_t id, std::string reason) {
 }
 
 void Draft::propose_found() {
-  for (const FoundPoint& found : head_.found) {
-    double error = found.noise;
-    if (found.point.vertex) {
-      const SurfaceVertexId vertex = head_.surface.surface_of[found.point.vertex->value()];
-      error = std::hypot(error, between_vertices * face_.spacing(vertex.value()));
-    }
-    proposals_.points.push_back(proposal_of(found.point, ProposalMethod::shape, error));
+  for (const auto& [point, noise] : head_.found) {
+    std::optional<double> spacing;
+    if (point.vertex) spacing = face_.spacing(head_.surface.surface_of[point.vertex->value()].value());
+    proposals_.points.push_back(proposal_of(point, ProposalMethod::shape, noise, spacing));
   }
 }
 

@@ -37,15 +37,6 @@ constexpr double noise_of_middle = 0.03;
 constexpr double noise_of_corner = 0.05;
 constexpr double noise_of_nose = 0.05;
 
-/// The largest part with a role.
-const Part* largest_with(std::span<const Part> parts, PartRole role) {
-  const Part* largest = nullptr;
-  for (const Part& part : parts) {
-    if (part.role == role && (largest == nullptr || part.vertex_count > largest->vertex_count)) largest = &part;
-  }
-  return largest;
-}
-
 /// Lids that are parts of their own count as skin here. Before any of their points are known they are taken for what
 /// lies on an eye, or for a part of it.
 std::vector<Part> with_lids_as_skin(std::span<const Part> parts) {
@@ -79,7 +70,8 @@ struct SeenOpening {
   SeenSpot upper, lower, left, right;
 };
 
-/// The columns of an eye in which its ball is seen, by their x, from right to left: those that join its middle.
+/// The columns on both sides of the middle of an eye in which its ball is seen, without a gap, with their x: from right
+/// to left.
 std::vector<std::pair<double, SeenEye>> columns_of_eye(const FaceFront& front, const glm::dvec3& centre,
                                                        double radius) {
   constexpr int steps = 24;
@@ -184,27 +176,29 @@ void find_eye(Found& found, const FaceFront& front, const glm::dvec3& pupil, con
 Result<std::vector<FoundPoint>> find_points_by_shape(const Surface& surface, std::span<const Part> described,
                                                      std::span<const Triangle> triangles) {
   const std::vector<Part> parts = with_lids_as_skin(described);
-  const Part* const left = largest_with(parts, PartRole::left_eye);
-  const Part* const right = largest_with(parts, PartRole::right_eye);
-  if (left == nullptr || right == nullptr) return refused("the model has no two eyeballs that are parts of their own");
-  const glm::dvec3 apart = centre_of(*left) - centre_of(*right);
+  const auto left_part = largest_part(parts, PartRole::left_eye);
+  const auto right_part = largest_part(parts, PartRole::right_eye);
+  if (!left_part || !right_part) return refused("the model has no two eyeballs that are parts of their own");
+  const Part& left = parts[left_part->value()];
+  const Part& right = parts[right_part->value()];
+  const glm::dvec3 apart = centre_of(left) - centre_of(right);
   constexpr double side_by_side = 0.95;  // cosine
   if (!(apart.x > side_by_side * glm::length(apart)))
     return refused("the eyes are not side by side: the head is turned in its file");
 
   Similarity frame;
   frame.scale = 1.0 / glm::length(apart);
-  frame.from = 0.5 * (centre_of(*left) + centre_of(*right));
+  frame.from = 0.5 * (centre_of(left) + centre_of(right));
   const FaceFront front(surface, parts, triangles, frame);
-  const FaceSurface face(surface, parts, frame, triangles);
+  const FaceSurface face(surface, parts, frame);
   const auto pupil_of = [&](const Part& eye) {
     const glm::dvec3 front_of_ball = frame(centre_of(eye)) + glm::dvec3(0.0, 0.0, radius_of(eye, frame));
     return frame.from + find_pupil(face, parts, eye.role, front_of_ball) / frame.scale;
   };
 
   Found found(surface);
-  find_eye(found, front, pupil_of(*left), frame, *left, points_of_left_eye);
-  find_eye(found, front, pupil_of(*right), frame, *right, points_of_right_eye);
+  find_eye(found, front, pupil_of(left), frame, left, points_of_left_eye);
+  find_eye(found, front, pupil_of(right), frame, right, points_of_right_eye);
   const auto mouth = find_seen_mouth(front);
   if (const auto nose = find_nose(front, mouth ? mouth->middle.upper.place.y + above_mouth : nose_bottom))
     found.add("9.3", *nose, noise_of_nose);

@@ -11,7 +11,7 @@
 
 namespace semblante {
 
-/// A point that the shape of a face shows without any marked one.
+/// A feature point that is found by the shape of a face, without marked points.
 struct FoundPoint {
   FeaturePoint point;  ///< in the model's frame
   double noise = 0.0;  ///< standard deviation, in ES0

@@ -17,14 +17,19 @@ constexpr double cornea = 0.12;     ///< radius of the cornea seen from the fron
 
 }  // namespace
 
-std::optional<Sphere> find_eyeball(const FaceSurface& face, std::span<const Part> parts, PartRole eye) {
+std::optional<PartId> largest_part(std::span<const Part> parts, PartRole role) {
   std::optional<std::uint32_t> largest;
   for (std::uint32_t p = 0; p < parts.size(); ++p) {
-    if (parts[p].role == eye && (!largest || parts[p].vertex_count > parts[*largest].vertex_count)) largest = p;
+    if (parts[p].role == role && (!largest || parts[p].vertex_count > parts[*largest].vertex_count)) largest = p;
   }
+  return largest ? std::optional(PartId(*largest)) : std::nullopt;
+}
+
+std::optional<Sphere> find_eyeball(const FaceSurface& face, std::span<const Part> parts, PartRole eye) {
+  const std::optional<PartId> largest = largest_part(parts, eye);
   if (!largest) return std::nullopt;
   std::vector<glm::dvec3> places;
-  for (const SurfaceVertexId v : face.surface().members_of(PartId(*largest))) places.push_back(face.at(v.value()));
+  for (const SurfaceVertexId v : face.surface().members_of(*largest)) places.push_back(face.at(v.value()));
   const std::optional<Sphere> ball = fit_sphere(places);
   constexpr double roundness = 0.15;
   return ball && ball->rms_error < roundness * ball->radius ? ball : std::nullopt;

@@ -148,7 +148,8 @@ Error too_few(const FeaturePointSet& marked, const std::string& why_none_by_shap
                    missing_of_quick_set(marked)};
 }
 
-/// Enough of marked and found points: found ones are spread over the face, and an eye that is shut has few.
+/// Minimum number of marked and found points together. Less than of marked points alone: found ones are spread over the
+/// face, and of an eye that is shut only the pupil is found.
 constexpr std::size_t least_with_found = 6;
 
 /// With too few marked points, those that the shape of the face shows beside them; otherwise none.

@@ -60,8 +60,8 @@ inline constexpr std::size_t least_known_points = 8;
 /// position without a vertex, where they show that the surface is nearer to it than any free vertex; without them
 /// never.
 ///
-/// Errors: `missing` for too few known points on a face whose shape does not show the others, or for points too close
-/// together to determine the pose of the head.
+/// Errors: `missing` if fewer than `least_known_points` are known and too few others are found by the shape of the
+/// face, or if the points are too close together to determine the pose of the head.
 Result<Proposals> propose_feature_points(const Surface& surface, std::span<const Part> parts,
                                          const FeaturePointSet& known,
                                          std::span<const ReferenceHead> references = reference_heads(),

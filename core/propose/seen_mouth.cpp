@@ -22,8 +22,9 @@ constexpr double mouth_bottom = -2.0;
 constexpr double step_down = 0.01;
 constexpr double step_aside = 0.02;
 constexpr double fine_step_aside = 0.005;
-/// Lips are two places that are seen one below the other, with a way of at least this length between them through the
-/// mouth, and of this multiple of their distance. A nose or a chin that juts out hides a short way.
+/// Two places that are seen one below the other are on different lips if the way between them, through the mouth, has
+/// at least this length and is at least this multiple of their distance. The way behind a nose or chin that juts out is
+/// shorter.
 constexpr double least_way = 0.10;
 constexpr double least_detour = 3.0;
 /// A mouth at rest is open by less.

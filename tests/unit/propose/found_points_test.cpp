@@ -23,7 +23,7 @@ using testing::sample_head_points;
 constexpr std::array eye_names = {"3.1", "3.2", "3.3", "3.4", "3.7", "3.8", "3.11", "3.12"};
 constexpr std::array mouth_names = {"2.2", "2.3", "2.4", "2.5"};
 
-/// References without our own head: they would know its proportions.
+/// The reference heads without our own, whose proportions these tests measure.
 std::vector<ReferenceHead> heads_of_others() {
   std::vector<ReferenceHead> others(reference_heads().begin(), reference_heads().end());
   std::erase_if(others, [](const ReferenceHead& head) { return head.name == "sample-head"; });
