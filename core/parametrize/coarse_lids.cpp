@@ -165,7 +165,7 @@ class LidMesh {
   [[nodiscard]] std::size_t count_in_ball(const semblante_rig& rig, const std::array<double, 2>& closure,
                                           double gaze) const {
     semblante_frame frame{};
-    // FAPs of an eye that is open wider than IRISD are in its own opening (lids.h of core/kernel).
+    // Of an eye that is open wider than IRISD, the unit of FAPs 19 to 22 is its own opening (lids.h of core/kernel).
     const double whole = std::min(lids_.opening / irisd_, 1024.0);
     frame.fap[close_upper_lid + eye_] = static_cast<float>(closure[0] * whole);
     frame.fap[close_lower_lid + eye_] = static_cast<float>(closure[1] * whole);

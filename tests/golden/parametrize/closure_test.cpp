@@ -94,7 +94,7 @@ TEST(Blink, ShutsSlantedEyes) {
   }
 }
 
-// IRISD is the mean of both eyes: the left one stayed open by a fifth.
+// IRISD is the mean of both eyes: by it alone the left one would stay open by a fifth.
 TEST(Blink, ShutsBothOfTwoUnequalEyes) {
   const bench::Head sample = bench::sample_head();
   bench::Head head = sample;
