@@ -162,44 +162,22 @@ bool EyeSkin::grow_from(const glm::dvec3& at) {
   return true;
 }
 
-std::size_t EyeSkin::View::knot(const glm::dvec3& place) const {
-  return at(static_cast<int>(std::lround((place.x - origin.x) / step)),
-            static_cast<int>(std::lround((place.y - origin.y) / step)));
-}
-
 EyeSkin::View EyeSkin::view() const {
   View view;
   const glm::dvec3 half = width_ * reach;
-  view.origin = opening_.middle() - half;
+  view.origin = glm::dvec2(opening_.middle() - half);
   view.step = width_ / knots_per_width;
   view.columns = 1 + static_cast<int>(2.0 * half.x / view.step);
   view.rows = 1 + static_cast<int>(2.0 * half.y / view.step);
-  view.z.assign(view.at(0, view.rows), -std::numeric_limits<double>::infinity());
-  view.is_eye.assign(view.z.size(), false);
+  view.z.assign(view.size(), -std::numeric_limits<double>::infinity());
+  view.is_eye.assign(view.size(), false);
   for (std::size_t f = 0; f < faces_.size(); ++f) {
-    const std::array<glm::dvec3, 3> p = {place(faces_[f].corners[0]), place(faces_[f].corners[1]),
-                                         place(faces_[f].corners[2])};
-    const double area = (p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[2].x - p[0].x) * (p[1].y - p[0].y);
-    if (area == 0.0) continue;
-    const auto [left, right] = std::minmax({p[0].x, p[1].x, p[2].x});
-    const auto [low, high] = std::minmax({p[0].y, p[1].y, p[2].y});
-    const auto knot = [&](double from) { return std::max(0, static_cast<int>(std::ceil(from / view.step))); };
-    for (int row = knot(low - view.origin.y); row < view.rows; ++row) {
-      const double y = view.origin.y + row * view.step;
-      if (y > high) break;
-      for (int column = knot(left - view.origin.x); column < view.columns; ++column) {
-        const double x = view.origin.x + column * view.step;
-        if (x > right) break;
-        const double b = ((x - p[0].x) * (p[2].y - p[0].y) - (p[2].x - p[0].x) * (y - p[0].y)) / area;
-        const double c = ((p[1].x - p[0].x) * (y - p[0].y) - (x - p[0].x) * (p[1].y - p[0].y)) / area;
-        if (b < 0.0 || c < 0.0 || b + c > 1.0) continue;
-        const double z = p[0].z + b * (p[1].z - p[0].z) + c * (p[2].z - p[0].z);
-        const std::size_t at = view.at(column, row);
-        if (z <= view.z[at]) continue;
-        view.z[at] = z;
-        view.is_eye[at] = of_eye_[f];
-      }
-    }
+    const auto& [a, b, c] = faces_[f].corners;
+    view.visit_knots({place(a), place(b), place(c)}, [&](std::size_t knot, double z) {
+      if (z <= view.z[knot]) return;
+      view.z[knot] = z;
+      view.is_eye[knot] = of_eye_[f];
+    });
   }
   return view;
 }

@@ -9,6 +9,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "core/geometry/front_grid.h"
 #include "core/geometry/sphere_fit.h"
 #include "core/geometry/surface.h"
 #include "core/types/model.h"
@@ -67,22 +68,16 @@ class EyeSkin {
   /// The ball that the marked triangles lie on; of a flat eye a great one.
   [[nodiscard]] const std::optional<Sphere>& fitted() const { return ball_; }
 
-  /// What is seen straight from the front, at the knots of a grid.
-  struct View {
-    glm::dvec3 origin{0.0};
-    double step = 0.0;
-    int columns = 0, rows = 0;
-    std::vector<double> z;     ///< #columns * #rows; minus infinity where nothing is seen
-    std::vector<bool> is_eye;  ///< #columns * #rows
+  /// What is seen straight from the front.
+  struct View : FrontGrid {
+    std::vector<double> z;     ///< by knot; minus infinity where nothing is seen
+    std::vector<bool> is_eye;  ///< by knot
 
-    [[nodiscard]] std::size_t at(int column, int row) const {
-      return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column);
-    }
     [[nodiscard]] glm::dvec3 place(int column, int row) const {
       return {origin.x + column * step, origin.y + row * step, z[at(column, row)]};
     }
     /// The knot nearest to a place within the grid.
-    [[nodiscard]] std::size_t knot(const glm::dvec3& place) const;
+    [[nodiscard]] std::size_t knot(const glm::dvec3& place) const { return at(column_at(place.x), row_at(place.y)); }
   };
   [[nodiscard]] View view() const;
 

@@ -66,7 +66,7 @@ class SeenPiece {
         const auto row = static_cast<int>(piece[k]) / view.columns;
         const auto column = static_cast<int>(piece[k]) % view.columns;
         for (const auto& [dx, dy] : {std::pair(1, 0), std::pair(-1, 0), std::pair(0, 1), std::pair(0, -1)}) {
-          if (!is_in(column + dx, row + dy)) continue;
+          if (!view.is_in(column + dx, row + dy)) continue;
           const std::size_t next = view.at(column + dx, row + dy);
           if (known[next] || !view.is_eye[next]) continue;
           known[next] = true;
@@ -82,11 +82,8 @@ class SeenPiece {
   }
 
   [[nodiscard]] const EyeSkin::View& view() const { return view_; }
-  [[nodiscard]] bool is_in(int column, int row) const {
-    return 0 <= column && column < view_.columns && 0 <= row && row < view_.rows;
-  }
   [[nodiscard]] bool contains(int column, int row) const {
-    return is_in(column, row) && of_piece_[view_.at(column, row)];
+    return view_.is_in(column, row) && of_piece_[view_.at(column, row)];
   }
   /// The lowest and the highest row of a column.
   [[nodiscard]] std::optional<std::pair<int, int>> rows_at(int column) const {
@@ -126,7 +123,8 @@ class SeenPiece {
       }
       for (int half_step = end; 0.5 * half_step <= 0.5 * end + way; ++half_step) {
         const auto [column, row] = at(half_step);
-        if (!is_in(column, row) || contains(column, row) || !std::isfinite(view_.z[view_.at(column, row)])) continue;
+        if (!view_.is_in(column, row) || contains(column, row) || !std::isfinite(view_.z[view_.at(column, row)]))
+          continue;
         if (glm::distance(view_.place(column, row), ball.center) < ball.radius + step_of_lid * width) continue;
         ++stepped;
         break;
@@ -145,7 +143,7 @@ class SeenPiece {
 glm::dvec3 beside(const EyeSkin::View& view, int column, int row, double aside, double up) {
   const int to_column = column + static_cast<int>(std::lround(aside / view.step));
   const int to_row = row + static_cast<int>(std::lround(up / view.step));
-  if (to_column < 0 || view.columns <= to_column || to_row < 0 || view.rows <= to_row) return view.place(column, row);
+  if (!view.is_in(to_column, to_row)) return view.place(column, row);
   const glm::dvec3 place = view.place(to_column, to_row);
   return std::isfinite(place.z) ? place : view.place(column, row);
 }
