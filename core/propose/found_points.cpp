@@ -12,9 +12,12 @@
 
 #include "core/anatomy/role_by_name.h"
 #include "core/propose/face_front.h"
+#include "core/propose/face_search.h"
 #include "core/propose/face_surface.h"
+#include "core/propose/front_relief.h"
 #include "core/propose/mouth_and_eyes.h"
 #include "core/propose/seen_mouth.h"
+#include "core/propose/seen_opening.h"
 #include "core/types/feature_point_id.h"
 
 namespace semblante {
@@ -28,14 +31,14 @@ constexpr double nose_step = 0.01;
 constexpr double above_mouth = 0.10;
 /// By how much a nose stands out before the places above and below it.
 constexpr double least_nose = 0.02;
-/// The height of an open eye, as a share of its width.
-constexpr double least_open = 0.15;
 
 /// Standard deviations, from heads with points that people placed (bench_propose).
 constexpr double noise_of_pupil = 0.01;
 constexpr double noise_of_middle = 0.03;
 constexpr double noise_of_corner = 0.05;
 constexpr double noise_of_nose = 0.05;
+/// Of a place that only the likeness of the whole face shows.
+constexpr double noise_of_likeness = 0.10;
 
 /// Lids that are parts of their own count as skin here. Before any of their points are known they are taken for what
 /// lies on an eye, or for a part of it.
@@ -63,59 +66,6 @@ std::optional<SeenSpot> find_nose(const FaceFront& front, double low) {
   }
   if (!tip || tip->z < std::max(first, last) + least_nose) return std::nullopt;
   return front.spot(column, *tip);
-}
-
-/// An eye as it is seen between its lids.
-struct SeenOpening {
-  SeenSpot upper, lower, left, right;
-};
-
-/// The columns on both sides of the middle of an eye in which its ball is seen, without a gap, with their x: from right
-/// to left.
-std::vector<std::pair<double, SeenEye>> columns_of_eye(const FaceFront& front, const glm::dvec3& centre,
-                                                       double radius) {
-  constexpr int steps = 24;
-  const double step = radius / steps;
-  const double reach = 1.2 * radius;
-  std::vector<std::pair<double, SeenEye>> columns;
-  const auto look = [&](int first, double direction) {
-    for (int k = first; k <= 2 * steps; ++k) {
-      const double x = centre.x + direction * k * step;
-      const auto eye = front.eye(x, centre.y - reach, centre.y + reach);
-      if (!eye) return;
-      columns.emplace_back(x, *eye);
-    }
-  };
-  look(0, -1.0);
-  std::reverse(columns.begin(), columns.end());
-  look(1, 1.0);
-  return columns;
-}
-
-std::optional<SeenOpening> find_opening(const FaceFront& front, const glm::dvec3& centre, double radius) {
-  const auto columns = columns_of_eye(front, centre, radius);
-  if (columns.empty()) return std::nullopt;
-  const auto spot_at = [&](double x, const glm::dvec3& place) { return front.spot(front.column(x), place); };
-  const auto corner = [&](const std::pair<double, SeenEye>& end) {
-    const auto& [x, eye] = end;
-    const auto upper = spot_at(x, eye.upper);
-    return upper ? std::optional(SeenSpot{0.5 * (eye.upper + eye.lower), upper->vertex}) : std::nullopt;
-  };
-  const double first = columns.front().first;
-  const double width = columns.back().first - first;
-  // A ball may lie aside of the opening: the middle of the lids is not far from that of the eye.
-  const double middle = std::clamp(centre.x, first + 0.4 * width, first + 0.6 * width);
-  const auto& [x, seen] = *std::min_element(columns.begin(), columns.end(), [&](const auto& a, const auto& b) {
-    return std::abs(a.first - middle) < std::abs(b.first - middle);
-  });
-  // The slit of an eye that is shut may end anywhere.
-  if (seen.upper.y - seen.lower.y < least_open * width) return std::nullopt;
-  const auto upper = spot_at(x, seen.upper);
-  const auto lower = spot_at(x, seen.lower);
-  const auto left = corner(columns.back());
-  const auto right = corner(columns.front());
-  if (!upper || !lower || !left || !right) return std::nullopt;
-  return SeenOpening{*upper, *lower, *left, *right};
 }
 
 Error refused(std::string why) { return Error{ErrorCode::missing, "/points", std::move(why)}; }
@@ -159,55 +109,120 @@ double radius_of(const Part& eye, const Similarity& frame) {
   return 0.5 * frame.scale * double(eye.box_max.y - eye.box_min.y);
 }
 
-/// `pupil`: in the model's frame.
-void find_eye(Found& found, const FaceFront& front, const glm::dvec3& pupil, const Similarity& frame, const Part& eye,
-              const PointsOfEye& points) {
-  found.add_at(points.pupil, std::nullopt, pupil, noise_of_pupil);
-  const auto opening = find_opening(front, frame(centre_of(eye)), radius_of(eye, frame));
-  if (!opening) return;
-  found.add(points.upper, opening->upper, noise_of_middle);
-  found.add(points.lower, opening->lower, noise_of_middle);
-  found.add(points.left, opening->left, noise_of_corner);
-  found.add(points.right, opening->right, noise_of_corner);
+struct Eyeballs {
+  const Part* left = nullptr;
+  const Part* right = nullptr;
+};
+
+Result<Eyeballs> find_eyeballs(std::span<const Part> parts) {
+  const auto left = largest_part(parts, PartRole::left_eye);
+  const auto right = largest_part(parts, PartRole::right_eye);
+  if (!left || !right) return refused("the model has no two eyeballs that are parts of their own");
+  const Eyeballs eyes{&parts[left->value()], &parts[right->value()]};
+  const glm::dvec3 apart = centre_of(*eyes.left) - centre_of(*eyes.right);
+  constexpr double side_by_side = 0.95;  // cosine
+  if (!(apart.x > side_by_side * glm::length(apart)))
+    return refused("the eyes are not side by side: the head is turned in its file");
+  return eyes;
+}
+
+Similarity frame_between(const Eyeballs& eyes) {
+  const glm::dvec3 left = centre_of(*eyes.left);
+  const glm::dvec3 right = centre_of(*eyes.right);
+  Similarity frame;
+  frame.scale = 1.0 / glm::distance(left, right);
+  frame.from = 0.5 * (left + right);
+  return frame;
+}
+
+/// The nose and the mouth, which every face has.
+void find_nose_and_mouth(Found& found, const FaceFront& front) {
+  const auto mouth = find_seen_mouth(front);
+  if (const auto nose = find_nose(front, mouth ? mouth->middle.upper.place.y + above_mouth : nose_bottom))
+    found.add("9.3", *nose, noise_of_nose);
+  if (!mouth) return;
+  found.add("2.2", mouth->middle.upper, noise_of_middle);
+  found.add("2.3", mouth->middle.lower, noise_of_middle);
+  found.add("2.4", mouth->left.upper, noise_of_corner);
+  found.add("2.5", mouth->right.upper, noise_of_corner);
+}
+
+/// The eyes where their balls are seen between the lids.
+class EyesOfBalls {
+ public:
+  EyesOfBalls(const Surface& surface, std::span<const Part> parts, const Eyeballs& eyes, const Similarity& frame)
+      : parts_(parts), eyes_(eyes), frame_(frame), face_(surface, parts, frame) {}
+
+  void find(Found& found, const FaceFront& front) const {
+    find_one(found, front, *eyes_.left, points_of_left_eye);
+    find_one(found, front, *eyes_.right, points_of_right_eye);
+  }
+
+ private:
+  void find_one(Found& found, const FaceFront& front, const Part& eye, const PointsOfEye& points) const {
+    const glm::dvec3 centre = frame_(centre_of(eye));
+    const double radius = radius_of(eye, frame_);
+    const glm::dvec3 pupil = find_pupil(face_, parts_, eye.role, centre + glm::dvec3(0.0, 0.0, radius));
+    found.add_at(points.pupil, std::nullopt, frame_.from + pupil / frame_.scale, noise_of_pupil);
+    const auto opening = find_seen_opening(front, centre, radius);
+    if (!opening) return;
+    found.add(points.upper, opening->upper, noise_of_middle);
+    found.add(points.lower, opening->lower, noise_of_middle);
+    found.add(points.left, opening->left, noise_of_corner);
+    found.add(points.right, opening->right, noise_of_corner);
+  }
+
+  std::span<const Part> parts_;
+  const Eyeballs& eyes_;
+  const Similarity& frame_;
+  FaceSurface face_;
+};
+
+/// The part on which the middle of a face lies is skin, whatever its size and name.
+void make_skin_at(std::vector<Part>& parts, const Surface& surface, const glm::dvec3& place) {
+  const auto nearest = std::min_element(
+      surface.positions.begin(), surface.positions.end(),
+      [&](const glm::dvec3& a, const glm::dvec3& b) { return glm::distance(a, place) < glm::distance(b, place); });
+  Part& part = parts[surface.part_of[static_cast<std::size_t>(nearest - surface.positions.begin())].value()];
+  if (!part.role_by_user) part.role = PartRole::skin;
+}
+
+/// Of eyes that lie in the skin, or are painted on it.
+void find_pupils_by_likeness(Found& found, const FaceFront& front, const Similarity& frame) {
+  for (const auto& [name, x] : {std::pair("3.5", 0.5), std::pair("3.6", -0.5)}) {
+    const auto seen = front.column(x).at(0.0);
+    const glm::dvec3 pupil(x, 0.0, seen ? seen->z : 0.0);
+    found.add_at(name, std::nullopt, frame.from + pupil / frame.scale, noise_of_likeness);
+  }
 }
 
 }  // namespace
 
-Result<std::vector<FoundPoint>> find_points_by_shape(const Surface& surface, std::span<const Part> described,
-                                                     std::span<const Triangle> triangles) {
+Result<std::vector<FoundPoint>> find_points_by_eyeballs(const Surface& surface, std::span<const Part> described,
+                                                        std::span<const Triangle> triangles) {
   const std::vector<Part> parts = with_lids_as_skin(described);
-  const auto left_part = largest_part(parts, PartRole::left_eye);
-  const auto right_part = largest_part(parts, PartRole::right_eye);
-  if (!left_part || !right_part) return refused("the model has no two eyeballs that are parts of their own");
-  const Part& left = parts[left_part->value()];
-  const Part& right = parts[right_part->value()];
-  const glm::dvec3 apart = centre_of(left) - centre_of(right);
-  constexpr double side_by_side = 0.95;  // cosine
-  if (!(apart.x > side_by_side * glm::length(apart)))
-    return refused("the eyes are not side by side: the head is turned in its file");
-
-  Similarity frame;
-  frame.scale = 1.0 / glm::length(apart);
-  frame.from = 0.5 * (centre_of(left) + centre_of(right));
+  const auto eyes = find_eyeballs(parts);
+  if (!eyes) return eyes.error();
+  const Similarity frame = frame_between(*eyes);
   const FaceFront front(surface, parts, triangles, frame);
-  const FaceSurface face(surface, parts, frame);
-  const auto pupil_of = [&](const Part& eye) {
-    const glm::dvec3 front_of_ball = frame(centre_of(eye)) + glm::dvec3(0.0, 0.0, radius_of(eye, frame));
-    return frame.from + find_pupil(face, parts, eye.role, front_of_ball) / frame.scale;
-  };
-
   Found found(surface);
-  find_eye(found, front, pupil_of(left), frame, left, points_of_left_eye);
-  find_eye(found, front, pupil_of(right), frame, right, points_of_right_eye);
-  const auto mouth = find_seen_mouth(front);
-  if (const auto nose = find_nose(front, mouth ? mouth->middle.upper.place.y + above_mouth : nose_bottom))
-    found.add("9.3", *nose, noise_of_nose);
-  if (mouth) {
-    found.add("2.2", mouth->middle.upper, noise_of_middle);
-    found.add("2.3", mouth->middle.lower, noise_of_middle);
-    found.add("2.4", mouth->left.upper, noise_of_corner);
-    found.add("2.5", mouth->right.upper, noise_of_corner);
-  }
+  EyesOfBalls(surface, parts, *eyes, frame).find(found, front);
+  find_nose_and_mouth(found, front);
+  return found.take();
+}
+
+std::vector<FoundPoint> find_points_by_likeness(const Surface& surface, std::span<const Part> described,
+                                                std::span<const Triangle> triangles,
+                                                std::span<const ReferenceHead> references) {
+  const auto relief = FrontRelief::draw(surface, triangles);
+  const auto face = relief ? search_face(*relief, references) : std::nullopt;
+  if (!face) return {};
+  std::vector<Part> parts = with_lids_as_skin(described);
+  make_skin_at(parts, surface, face->frame.from);
+  const FaceFront front(surface, parts, triangles, face->frame);
+  Found found(surface);
+  find_pupils_by_likeness(found, front, face->frame);
+  find_nose_and_mouth(found, front);
   return found.take();
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -148,23 +149,32 @@ Error too_few(const FeaturePointSet& marked, const std::string& why_none_by_shap
                    missing_of_quick_set(marked)};
 }
 
-/// Minimum number of marked and found points together. Less than of marked points alone: found ones are spread over the
-/// face, and of an eye that is shut only the pupil is found.
+/// Minimum number of marked points and those found by eyeballs together. Less than of marked points alone: found ones
+/// are spread over the face, and of an eye that is shut only the pupil is found.
 constexpr std::size_t least_with_found = 6;
 
 /// With too few marked points, those that the shape of the face shows beside them; otherwise none.
 Result<std::vector<FoundPoint>> find_missing(const Surface& surface, std::span<const Part> parts,
-                                             std::span<const Triangle> triangles, const FeaturePointSet& marked) {
+                                             std::span<const Triangle> triangles, const FeaturePointSet& marked,
+                                             std::span<const ReferenceHead> references) {
   if (marked.size() >= least_known_points) return std::vector<FoundPoint>();
-  auto found = find_points_by_shape(surface, parts, triangles);
-  if (!found) return too_few(marked, found.error().message);
-  std::erase_if(*found, [&](const FoundPoint& f) {
-    return find_point(marked, f.point.id) != nullptr ||
-           (f.point.vertex && has_vertex(marked, surface, *f.point.vertex));
-  });
-  if (marked.size() + found->size() < least_with_found)
-    return too_few(marked, "only " + std::to_string(found->size()) + " are seen");
-  return found;
+  const auto without_marked = [&](std::vector<FoundPoint> found) {
+    std::erase_if(found, [&](const FoundPoint& f) {
+      return find_point(marked, f.point.id) != nullptr ||
+             (f.point.vertex && has_vertex(marked, surface, *f.point.vertex));
+    });
+    return found;
+  };
+  const auto by_eyeballs = find_points_by_eyeballs(surface, parts, triangles);
+  std::string why = by_eyeballs ? "" : by_eyeballs.error().message;
+  if (by_eyeballs) {
+    auto found = without_marked(*by_eyeballs);
+    if (marked.size() + found.size() >= least_with_found) return found;
+    why = "only " + std::to_string(found.size()) + " are seen";
+  }
+  auto found = find_points_by_likeness(surface, parts, triangles, references);
+  if (found.empty()) return too_few(marked, why + ", and nothing seen from the front is like a face");
+  return without_marked(std::move(found));
 }
 
 /// A part with a found point of the skin is skin, as one with a marked point is.
@@ -190,7 +200,7 @@ FeaturePointSet with_found(FeaturePointSet points, std::span<const FoundPoint> f
 Result<Proposals> propose_feature_points(const Surface& surface, std::span<const Part> described,
                                          const FeaturePointSet& marked, std::span<const ReferenceHead> references,
                                          const NeckJoints& joints, std::span<const Triangle> triangles) {
-  const auto found = find_missing(surface, described, triangles, marked);
+  const auto found = find_missing(surface, described, triangles, marked, references);
   if (!found) return found.error();
   const std::vector<Part> parts = with_found_skin(surface, described, *found);
   const FeaturePointSet known = with_found(marked, *found);

@@ -32,7 +32,23 @@ std::vector<ReferenceHead> heads_of_others() {
 
 Result<std::vector<FoundPoint>> find_on(const Model& model) {
   const Surface surface = build_surface(model);
-  return find_points_by_shape(surface, describe_parts(model, surface, {}), model.triangles);
+  return find_points_by_eyeballs(surface, describe_parts(model, surface, {}), model.triangles);
+}
+
+std::vector<FoundPoint> find_by_likeness(const Model& model) {
+  const Surface surface = build_surface(model);
+  return find_points_by_likeness(surface, describe_parts(model, surface, {}), model.triangles, heads_of_others());
+}
+
+Result<Proposals> propose_by_shape(const Model& model) {
+  const Surface surface = build_surface(model);
+  return propose_feature_points(surface, describe_parts(model, surface, {}), {}, heads_of_others(), {},
+                                model.triangles);
+}
+
+Model looking_aside(Model model) {
+  for (glm::vec3& p : model.positions) p = {p.z, p.y, -p.x};
+  return model;
 }
 
 bool has(const std::vector<FoundPoint>& found, const char* name) {
@@ -41,6 +57,26 @@ bool has(const std::vector<FoundPoint>& found, const char* name) {
 
 double eye_distance(const FeaturePointSet& points) {
   return glm::distance(find_point(points, fp("3.5"))->position, find_point(points, fp("3.6"))->position);
+}
+
+struct Bounds {
+  double median, nine_in_ten;  ///< of the distances, in ES0
+};
+
+/// Also that most of the claims are true.
+void expect_near(const Proposals& proposals, const FeaturePointSet& placed, const Bounds& bounds) {
+  std::vector<double> off;
+  std::size_t within = 0;
+  for (const Proposal& p : proposals.points) {
+    const FeaturePoint* const there = find_point(placed, p.point.id);
+    if (there == nullptr) continue;
+    off.push_back(glm::distance(p.point.position, there->position) / eye_distance(placed));
+    within += off.back() <= p.expected_error ? 1 : 0;
+  }
+  std::sort(off.begin(), off.end());
+  EXPECT_LT(off[off.size() / 2], bounds.median);
+  EXPECT_LT(off[off.size() * 9 / 10], bounds.nine_in_ten);
+  EXPECT_GE(within * 10, off.size() * 8) << "of the claims";
 }
 
 class FoundPoints : public ::testing::TestWithParam<FamilyMember> {};
@@ -63,23 +99,21 @@ TEST_P(FoundPoints, LieWhereTheyWerePlaced) {
 TEST_P(FoundPoints, AreEnoughToProposeTheOthers) {
   const SampleHeadTraits& traits = GetParam().traits;
   if (traits.form == SampleHeadForm::scan) return;
-  const Model model = sample_head_model(traits);
-  const Surface surface = build_surface(model);
-  const FeaturePointSet placed = sample_head_points(traits);
-  const auto proposals =
-      propose_feature_points(surface, describe_parts(model, surface, {}), {}, heads_of_others(), {}, model.triangles);
+  const auto proposals = propose_by_shape(sample_head_model(traits));
   ASSERT_TRUE(proposals) << proposals.error().message;
   EXPECT_GE(proposals->points.size(), 80U);
-  std::vector<double> off;
-  std::size_t within = 0;
-  for (const Proposal& p : proposals->points) {
-    off.push_back(glm::distance(p.point.position, find_point(placed, p.point.id)->position) / eye_distance(placed));
-    within += off.back() <= p.expected_error ? 1 : 0;
+  expect_near(*proposals, sample_head_points(traits), {.median = 0.10, .nine_in_ten = 0.30});
+}
+
+TEST_P(FoundPoints, OfTheLikenessAloneLieNearTheirPlaces) {
+  const SampleHeadTraits& traits = GetParam().traits;
+  const FeaturePointSet placed = sample_head_points(traits);
+  const auto found = find_by_likeness(sample_head_model(traits));
+  for (const char* name : {"3.5", "3.6", "9.3"}) EXPECT_TRUE(has(found, name)) << name;
+  for (const FoundPoint& f : found) {
+    const double off = glm::distance(f.point.position, find_point(placed, f.point.id)->position);
+    EXPECT_LT(off / eye_distance(placed), 0.25) << to_string(f.point.id);
   }
-  std::sort(off.begin(), off.end());
-  EXPECT_LT(off[off.size() / 2], 0.10);
-  EXPECT_LT(off[off.size() * 9 / 10], 0.30);
-  EXPECT_GE(within * 10, off.size() * 8) << "of the claims";
 }
 
 INSTANTIATE_TEST_SUITE_P(Family, FoundPoints, ::testing::ValuesIn(testing::sample_family()), testing::member_name);
@@ -91,11 +125,31 @@ TEST(FoundPointsOfOthers, AScanHasNoEyeballs) {
 }
 
 TEST(FoundPointsOfOthers, AHeadThatLooksAsideIsRefused) {
-  Model model = sample_head_model();
-  for (glm::vec3& p : model.positions) p = {p.z, p.y, -p.x};
+  const Model model = looking_aside(sample_head_model());
   const auto found = find_on(model);
   ASSERT_FALSE(found);
   EXPECT_NE(found.error().message.find("not side by side"), std::string::npos) << found.error().message;
+  EXPECT_TRUE(find_by_likeness(model).empty());
+  const auto proposals = propose_by_shape(model);
+  ASSERT_FALSE(proposals);
+  EXPECT_NE(proposals.error().message.find("turned in its file, and nothing seen from the front is like a face"),
+            std::string::npos)
+      << proposals.error().message;
+}
+
+TEST(FoundPointsOfOthers, AScanIsProposedByItsLikeness) {
+  const SampleHeadTraits traits{.form = SampleHeadForm::scan};
+  const auto proposals = propose_by_shape(sample_head_model(traits));
+  ASSERT_TRUE(proposals) << proposals.error().message;
+  EXPECT_GE(proposals->points.size(), 70U);
+  expect_near(*proposals, sample_head_points(traits), {.median = 0.20, .nine_in_ten = 0.45});
+}
+
+TEST(FoundPointsOfOthers, ThingsWithoutAFaceHaveNone) {
+  EXPECT_TRUE(find_by_likeness(testing::make_ball({0.0F, 0.0F, 0.0F}, 1.0F, 40, 40)).empty());
+  Model upside_down = sample_head_model({.form = SampleHeadForm::scan});
+  for (glm::vec3& p : upside_down.positions) p = {-p.x, -p.y, p.z};
+  EXPECT_TRUE(find_by_likeness(upside_down).empty());
 }
 
 TEST(FoundPointsOfOthers, MarkedPointsStayAndAreNotProposed) {

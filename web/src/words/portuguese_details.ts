@@ -104,6 +104,7 @@ export const portugueseDetails: Sentences = {
   'the model has no two eyeballs that are parts of their own': 'o modelo não tem dois globos oculares que sejam partes próprias',
   'the eyes are not side by side: the head is turned in its file': 'os olhos não estão lado a lado: a cabeça está virada no arquivo',
   'only {count} are seen': 'só {count} são vistos',
+  '{reason}, and nothing seen from the front is like a face': '{reason}, e nada do que se vê de frente parece um rosto',
   'the placed points are on one line or at one place, so the orientation of the head cannot be determined':
     'os pontos marcados estão numa linha ou num lugar só, e não se sabe como a cabeça está orientada',
   'sets the axes of the model, so up and front cannot be set as well': 'define os eixos do modelo, e por isso cima e frente não podem ser definidos também',

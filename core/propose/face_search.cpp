@@ -1,0 +1,256 @@
+#include "core/propose/face_search.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+#include "core/tables/mpeg4.h"
+#include "core/types/feature_point_id.h"
+
+namespace semblante {
+namespace {
+
+/// Of 44 files of others (heads, bodies, animals, robots), what was seen to be a face has 0.815 to 0.95, all else at
+/// most 0.80.
+constexpr double least_likeness = 0.81;
+/// By how many times the relief may be stronger or weaker than that of people.
+constexpr double strongest = 2.0;
+constexpr double weakest = 0.5;
+/// The share of the feature points of a face at which something is seen.
+constexpr double least_seen = 0.85;
+/// ES0 as a part of the greater extent of what is seen: from that of a mask down to a 45th, of a body with a weapon.
+constexpr double largest_face = 1.0 / 2.6;
+constexpr double size_step = 1.09;
+constexpr int sizes = 34;
+// All lengths below are in ES0.
+/// The top of what is seen above the middle between the eyes: of a mask, and of a tall hat.
+constexpr double least_forehead = 0.5;
+constexpr double greatest_forehead = 4.5;
+constexpr double width_of_forehead = 0.75;  ///< to either side
+/// Depths farther than this from their median are seen through an opening, or beside the face.
+constexpr double deepest = 1.2;
+constexpr double step = 1.0 / 7.0;
+/// The distance of the knots at which a face is compared.
+constexpr double knots_of_search = 1.0 / 12.0;
+constexpr double knots_of_fit = 1.0 / 16.0;
+/// The best places of the search, of which each is fitted.
+constexpr std::size_t fitted = 60;
+constexpr double first_fit_step = 0.1;
+constexpr double last_fit_step = 0.004;
+
+/// A place of the front of a face, in the frame of the reference heads.
+using FacePlace = glm::dvec3;
+
+/// The mean places of the points of the lips, the eyes, the brows, the cheeks and the outside of the nose: not of the
+/// jaw, which ends where the neck is seen.
+std::vector<FacePlace> places_of_front(std::span<const ReferenceHead> references) {
+  constexpr std::array<std::string_view, 6> of_front = {"2.", "3.", "4.", "5.", "8.", "9."};
+  constexpr std::array<std::string_view, 9> not_seen = {"2.1", "2.11", "2.12", "2.13", "2.14",
+                                                        "9.8", "9.9",  "9.10", "9.11"};
+  const auto mean = mean_of(references);
+  std::vector<FacePlace> places;
+  for (std::size_t id = 0; id < mean.size(); ++id) {
+    const std::string_view name = mpeg4::feature_points[id].id;
+    const bool is_of_front =
+        std::any_of(of_front.begin(), of_front.end(), [&](std::string_view group) { return name.starts_with(group); });
+    if (!mean[id] || !is_of_front || std::find(not_seen.begin(), not_seen.end(), name) != not_seen.end()) continue;
+    places.push_back(*mean[id]);
+  }
+  return places;
+}
+
+double dot(std::span<const double> a, std::span<const double> b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+/// Subtracts from `values` what they have of a vector of length 1.
+void subtract_share(std::span<double> values, std::span<const double> unit) {
+  const double share = dot(values, unit);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] -= share * unit[i];
+}
+
+struct Candidate {
+  double x = 0.0, y = 0.0, es0 = 0.0;  ///< the middle between the eyes
+  double likeness = -1.0;
+};
+
+class FaceSearch {
+ public:
+  FaceSearch(const FrontRelief& relief, std::span<const ReferenceHead> references)
+      : relief_(relief), places_(places_of_front(references)) {}
+
+  [[nodiscard]] std::optional<SeenFace> run() {
+    const Candidate best = find_best();
+    if (best.likeness < least_likeness) return std::nullopt;
+    SeenFace face;
+    face.frame.scale = 1.0 / best.es0;
+    face.frame.from = {best.x, best.y, depth_of(best)};
+    face.likeness = best.likeness;
+    return face;
+  }
+
+ private:
+  [[nodiscard]] Candidate find_best() {
+    Candidate best;
+    for (const Candidate& candidate : search()) {
+      const Candidate fit = fit_from(candidate);
+      if (fit.likeness > best.likeness) best = fit;
+    }
+    return best;
+  }
+
+  /// The depths that are seen at the places of a face, in ES0, beside those of the reference heads.
+  struct Depths {
+    std::vector<double> seen, expected;
+    std::vector<glm::dvec2> at;
+  };
+
+  void look(const FrontRelief::Level& level, const Candidate& c) {
+    depths_.seen.clear();
+    depths_.expected.clear();
+    depths_.at.clear();
+    for (const FacePlace& place : places_) {
+      const double z = level.at(c.x + place.x * c.es0, c.y + place.y * c.es0);
+      if (std::isnan(z)) continue;
+      depths_.seen.push_back(z / c.es0);
+      depths_.expected.push_back(place.z);
+      depths_.at.emplace_back(place);
+    }
+  }
+
+  /// The correlation of both depths beside slopes and curvature; -1 where too little is seen, or the relief is not as
+  /// strong as a face's.
+  [[nodiscard]] double likeness_at(const FrontRelief::Level& level, const Candidate& c) {
+    look(level, c);
+    auto& [seen, expected, at] = depths_;
+    const std::size_t count = seen.size();
+    if (static_cast<double>(count) < least_seen * static_cast<double>(places_.size())) return -1.0;
+    sorted_ = seen;
+    const auto middle = sorted_.begin() + static_cast<std::ptrdiff_t>(count / 2);
+    std::nth_element(sorted_.begin(), middle, sorted_.end());
+    for (double& z : seen) z = std::clamp(z - *middle, -deepest, deepest);
+    // Gram-Schmidt: each of 1, x, y, x^2 and y^2 without what the ones before it have of it.
+    for (std::size_t k = 0; k < slopes_.size(); ++k) {
+      std::vector<double>& slope = slopes_[k];
+      slope.resize(count);
+      for (std::size_t i = 0; i < count; ++i)
+        slope[i] = std::array{1.0, at[i].x, at[i].y, at[i].x * at[i].x, at[i].y * at[i].y}[k];
+      for (std::size_t before = 0; before < k; ++before) subtract_share(slope, slopes_[before]);
+      const double length = std::sqrt(dot(slope, slope));
+      for (double& value : slope) value /= length;
+      subtract_share(seen, slope);
+      subtract_share(expected, slope);
+    }
+    const double together = dot(seen, expected);
+    const double strength = together / dot(expected, expected);
+    if (!(strength > weakest && strength < strongest)) return -1.0;
+    return together / std::sqrt(dot(seen, seen) * dot(expected, expected));
+  }
+
+  /// The best places of all sizes, in no order.
+  [[nodiscard]] std::vector<Candidate> search() {
+    std::vector<Candidate> best;
+    double es0 = largest_face * std::max(relief_.width(), relief_.height());
+    for (int size = 0; size < sizes; ++size) {
+      search_size(best, es0);
+      es0 /= size_step;
+    }
+    return best;
+  }
+
+  void search_size(std::vector<Candidate>& best, double es0) {
+    const FrontRelief::Level& level = relief_.with_step(knots_of_search * es0);
+    const int columns = 1 + static_cast<int>(relief_.width() / (step * es0));
+    constexpr int rows = static_cast<int>((greatest_forehead - least_forehead) / step);
+    for (int column = 0; column < columns; ++column) {
+      const double x = level.grid.origin.x + column * step * es0;
+      const std::optional<double> top = top_at(level, x, es0);
+      for (int row = 0; top && row < rows; ++row) {
+        Candidate c{x, *top - (least_forehead + row * step) * es0, es0};
+        c.likeness = likeness_at(level, c);
+        if (c.likeness > 0.0) keep_best(best, c);
+      }
+    }
+  }
+
+  /// `best` is a heap with the worst on top.
+  static void keep_best(std::vector<Candidate>& best, const Candidate& c) {
+    const auto is_better = [](const Candidate& a, const Candidate& b) { return a.likeness > b.likeness; };
+    if (best.size() == fitted) {
+      if (c.likeness <= best.front().likeness) return;
+      std::pop_heap(best.begin(), best.end(), is_better);
+      best.pop_back();
+    }
+    best.push_back(c);
+    std::push_heap(best.begin(), best.end(), is_better);
+  }
+
+  /// The highest place that is seen above a face at `x`.
+  [[nodiscard]] static std::optional<double> top_at(const FrontRelief::Level& level, double x, double es0) {
+    const FrontGrid& grid = level.grid;
+    const int first = std::max(0, grid.column_at(x - width_of_forehead * es0));
+    const int last = std::min(grid.columns - 1, grid.column_at(x + width_of_forehead * es0));
+    for (int row = grid.rows - 1; row >= 0; --row) {
+      for (int column = first; column <= last; ++column) {
+        if (!std::isnan(level.z[grid.at(column, row)])) return grid.origin.y + row * grid.step;
+      }
+    }
+    return std::nullopt;
+  }
+
+  /// Steps that grow smaller where none leads to a greater likeness.
+  [[nodiscard]] Candidate fit_from(Candidate best) {
+    const auto look_at = [&](Candidate c) {
+      c.likeness = likeness_at(relief_.with_step(knots_of_fit * c.es0), c);
+      return c;
+    };
+    best = look_at(best);
+    double length = first_fit_step;
+    while (length > last_fit_step) {
+      bool is_better = false;
+      for (const double way : {-length, length}) {
+        const std::array<Candidate, 3> beside = {{{best.x + way * best.es0, best.y, best.es0},
+                                                  {best.x, best.y + way * best.es0, best.es0},
+                                                  {best.x, best.y, best.es0 * (1.0 + 0.5 * way)}}};
+        for (const Candidate& c : beside) {
+          const Candidate next = look_at(c);
+          if (next.likeness <= best.likeness) continue;
+          best = next;
+          is_better = true;
+        }
+      }
+      if (!is_better) length *= 0.5;
+    }
+    return best;
+  }
+
+  /// The z of the reference heads' origin.
+  [[nodiscard]] double depth_of(const Candidate& c) {
+    look(relief_.with_step(knots_of_fit * c.es0), c);
+    std::vector<double> off(depths_.seen.size());
+    for (std::size_t i = 0; i < off.size(); ++i) off[i] = depths_.seen[i] - depths_.expected[i];
+    const auto middle = off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2);
+    std::nth_element(off.begin(), middle, off.end());
+    return *middle * c.es0;
+  }
+
+  const FrontRelief& relief_;
+  std::vector<FacePlace> places_;
+  // Buffers of likeness_at().
+  Depths depths_;
+  std::vector<double> sorted_;
+  std::array<std::vector<double>, 5> slopes_;
+};
+
+}  // namespace
+
+std::optional<SeenFace> search_face(const FrontRelief& relief, std::span<const ReferenceHead> references) {
+  return FaceSearch(relief, references).run();
+}
+
+}  // namespace semblante
