@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/anatomy/face_search.h"
 #include "core/frame/frame_guess.h"
 #include "core/frame/head_landmarks.h"
 #include "core/frame/human_size.h"
@@ -29,7 +30,7 @@ class ShapeGuess {
     guess_.axes_sure = across_ && up_ && front_;
     if (guess_.axes_sure) {
       guess_.axes = {*up_, *front_};
-    } else if (guess_.axes_sure = stands_by_rule(); !guess_.axes_sure) {
+    } else if (guess_.axes_sure = stands_by_rule() || shows_a_face(); !guess_.axes_sure) {
       assume_axes();
     }
     guess_unit();
@@ -100,6 +101,47 @@ class ShapeGuess {
     }
     say("The axes of the head are uncertain without feature points: " + name(guess_.axes.up) +
         " is assumed to be up, and " + name(guess_.axes.front) + " the front");
+  }
+
+  /// Whether a face is seen in the file's own position or, of all that what is known allows, in one alone.
+  bool shows_a_face() {
+    // Of 44 files of others, those of people have 0.87 to 0.98 in their right position, and at most 0.85 in any other;
+    // things without a face have at most 0.86.
+    constexpr double clear = 0.87;
+    constexpr double margin = 0.05;
+    constexpr std::size_t least_triangles = 200;  // the fewest that show eyes, nose and mouth
+    if (model_.triangles.size() < least_triangles) return false;
+    std::optional<Axes> best;
+    double most = allows({}) ? face_likeness({}) : 0.0;
+    if (most >= clear) return take_face({});
+    double next = 0.0;
+    for (const Axes& axes : all_axes()) {
+      if (axes == Axes{} || !allows(axes)) continue;
+      const double likeness = face_likeness(axes);
+      next = std::max(next, std::min(most, likeness));
+      if (likeness <= most) continue;
+      most = likeness;
+      best = axes;
+    }
+    return best && most >= clear && most >= next + margin && take_face(*best);
+  }
+
+  /// 0 where nothing is like a face.
+  [[nodiscard]] double face_likeness(const Axes& axes) const {
+    const auto relief = FrontRelief::draw(surface_, model_.triangles, to_mpeg4(axes));
+    const auto face = relief ? search_face(*relief, reference_heads()) : std::nullopt;
+    return face ? face->likeness : 0.0;
+  }
+
+  bool take_face(const Axes& axes) {
+    guess_.axes = axes;
+    say("Seen from " + name(axes.front) + ", with " + name(axes.up) + " up, the model is like a face");
+    return true;
+  }
+
+  [[nodiscard]] bool allows(const Axes& axes) const {
+    const int across = 3 - axis_of(axes.up) - axis_of(axes.front);
+    return (!across_ || *across_ == across) && (!up_ || up_is_of_neck_ || *up_ == axes.up);
   }
 
   void find_across() {

@@ -10,11 +10,11 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/anatomy/face_search.h"
+#include "core/anatomy/front_relief.h"
 #include "core/anatomy/role_by_name.h"
 #include "core/propose/face_front.h"
-#include "core/propose/face_search.h"
 #include "core/propose/face_surface.h"
-#include "core/propose/front_relief.h"
 #include "core/propose/mouth_and_eyes.h"
 #include "core/propose/seen_mouth.h"
 #include "core/propose/seen_opening.h"

@@ -100,6 +100,7 @@ export const portugueseRemarks: Sentences = {
   'The largest part is its own mirror image across {axis}': 'A maior parte é simétrica ao longo de {axis}',
   'The eyes are {direction} of the teeth or tongue': 'Os olhos ficam para {direction} dos dentes ou da língua',
   'The largest part ends open and flat at its {direction} end, as a neck does': 'A maior parte acaba aberta e reta em {direction}, como um pescoço',
+  'Seen from {front}, with {up} up, the model is like a face': 'Visto de {front}, com {up} para cima, o modelo parece um rosto',
   'The eyes are near the {direction} side of the head': 'Os olhos ficam perto do lado {direction} da cabeça',
   'The balls are near the {direction} side of the head, away from the densest vertices: they are hardly eyes':
     'As bolas ficam perto do lado {direction} da cabeça, longe dos vértices mais densos: não devem ser olhos',

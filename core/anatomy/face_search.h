@@ -3,9 +3,9 @@
 #include <optional>
 #include <span>
 
+#include "core/anatomy/front_relief.h"
 #include "core/anatomy/reference_heads.h"
 #include "core/geometry/similarity.h"
-#include "core/propose/front_relief.h"
 
 namespace semblante {
 

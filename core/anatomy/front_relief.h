@@ -4,6 +4,8 @@
 #include <span>
 #include <vector>
 
+#include <glm/mat3x3.hpp>
+
 #include "core/geometry/front_grid.h"
 #include "core/geometry/surface.h"
 #include "core/types/model.h"
@@ -22,8 +24,10 @@ class FrontRelief {
     [[nodiscard]] double at(double x, double y) const;
   };
 
-  /// `triangles` are of file vertices. Empty if they are too many on top of each other to be drawn in a second.
-  static std::optional<FrontRelief> draw(const Surface& surface, std::span<const Triangle> triangles);
+  /// `triangles` are of file vertices; `turn` is what turns the model upright. Empty if they are too many on top of
+  /// each other to be drawn in a second.
+  static std::optional<FrontRelief> draw(const Surface& surface, std::span<const Triangle> triangles,
+                                         const glm::dmat3& turn = glm::dmat3(1.0));
 
   [[nodiscard]] const Level& finest() const { return levels_.front(); }
   /// The coarsest level whose knots are at most `step` apart; the finest if none is as fine.

@@ -1,4 +1,4 @@
-#include "core/propose/front_relief.h"
+#include "core/anatomy/front_relief.h"
 
 #include <cmath>
 
@@ -12,9 +12,7 @@ namespace {
 using testing::make_ball;
 using testing::make_box;
 
-std::optional<FrontRelief> draw(const Model& model) {
-  return FrontRelief::draw(build_surface(model), model.triangles);
-}
+std::optional<FrontRelief> draw(const Model& model) { return FrontRelief::draw(build_surface(model), model.triangles); }
 
 TEST(FrontRelief, OfABall_IsItsFront) {
   const auto relief = draw(make_ball({2.0F, 1.0F, 5.0F}, 1.0F, 64, 64));

@@ -1,4 +1,4 @@
-#include "core/propose/front_relief.h"
+#include "core/anatomy/front_relief.h"
 
 #include <algorithm>
 #include <array>
@@ -19,10 +19,10 @@ constexpr int least_knots = 12;
 /// A closed surface covers each knot some times; a hundred times are drawn in a second.
 constexpr double most_covered = 100.0 * knots_along * knots_along;
 
-using Corners = std::array<glm::dvec3, 3>;
+using TrianglePlaces = std::array<glm::dvec3, 3>;
 
 /// The number of knots in the box about a triangle.
-double knots_in_box(const FrontGrid& grid, const Corners& p) {
+double knots_in_box(const FrontGrid& grid, const TrianglePlaces& p) {
   const auto [left, right] = std::minmax({p[0].x, p[1].x, p[2].x});
   const auto [low, high] = std::minmax({p[0].y, p[1].y, p[2].y});
   return (1.0 + (right - left) / grid.step) * (1.0 + (high - low) / grid.step);
@@ -57,14 +57,14 @@ double FrontRelief::Level::at(double x, double y) const {
   const double column = std::round((x - grid.origin.x) / grid.step);
   const double row = std::round((y - grid.origin.y) / grid.step);
   const bool is_in = 0.0 <= column && column < grid.columns && 0.0 <= row && row < grid.rows;
-  return is_in ? z[grid.at(static_cast<int>(column), static_cast<int>(row))]
-               : std::numeric_limits<double>::quiet_NaN();
+  return is_in ? z[grid.at(static_cast<int>(column), static_cast<int>(row))] : std::numeric_limits<double>::quiet_NaN();
 }
 
-std::optional<FrontRelief> FrontRelief::draw(const Surface& surface, std::span<const Triangle> triangles) {
+std::optional<FrontRelief> FrontRelief::draw(const Surface& surface, std::span<const Triangle> triangles,
+                                             const glm::dmat3& turn) {
   const auto corners_of = [&](const Triangle& t) {
-    const auto place = [&](std::uint32_t v) { return surface.positions[surface.surface_of[v].value()]; };
-    return Corners{place(t[0]), place(t[1]), place(t[2])};
+    const auto place = [&](std::uint32_t v) { return turn * surface.positions[surface.surface_of[v].value()]; };
+    return TrianglePlaces{place(t[0]), place(t[1]), place(t[2])};
   };
   glm::dvec3 low(std::numeric_limits<double>::infinity());
   glm::dvec3 high(-low);
@@ -84,7 +84,7 @@ std::optional<FrontRelief> FrontRelief::draw(const Surface& surface, std::span<c
   fine.z.assign(fine.grid.size(), std::numeric_limits<double>::quiet_NaN());
   double covered = 0.0;
   for (const Triangle& t : triangles) {
-    const Corners corners = corners_of(t);
+    const TrianglePlaces corners = corners_of(t);
     covered += knots_in_box(fine.grid, corners);
     if (covered > most_covered) return std::nullopt;
     fine.grid.visit_knots(corners, [&](std::size_t knot, double z) {

@@ -1,4 +1,4 @@
-#include "core/propose/face_search.h"
+#include "core/anatomy/face_search.h"
 
 #include <algorithm>
 #include <array>
@@ -30,6 +30,9 @@ constexpr int sizes = 34;
 constexpr double least_forehead = 0.5;
 constexpr double greatest_forehead = 4.5;
 constexpr double width_of_forehead = 0.75;  ///< to either side
+/// By how much the tip of the nose at least stands out before the mean of the eyes and the corners of the mouth: a
+/// quick test, which most places fail.
+constexpr double least_nose = 0.10;
 /// Depths farther than this from their median are seen through an opening, or beside the face.
 constexpr double deepest = 1.2;
 constexpr double step = 1.0 / 7.0;
@@ -82,7 +85,14 @@ struct Candidate {
 class FaceSearch {
  public:
   FaceSearch(const FrontRelief& relief, std::span<const ReferenceHead> references)
-      : relief_(relief), places_(places_of_front(references)) {}
+      : relief_(relief), places_(places_of_front(references)) {
+    const auto mean = mean_of(references);
+    const auto place = [&](std::string_view name) {
+      return mean[parse_feature_point(name)->value()].value_or(FacePlace(0.0));
+    };
+    nose_ = place("9.3");
+    around_nose_ = {place("3.5"), place("3.6"), place("8.3"), place("8.4")};
+  }
 
   [[nodiscard]] std::optional<SeenFace> run() {
     const Candidate best = find_best();
@@ -104,52 +114,68 @@ class FaceSearch {
     return best;
   }
 
-  /// The depths that are seen at the places of a face, in ES0, beside those of the reference heads.
-  struct Depths {
-    std::vector<double> seen, expected;
-    std::vector<glm::dvec2> at;
-  };
-
+  /// The depths that are seen at the places of a face, in ES0.
   void look(const FrontRelief::Level& level, const Candidate& c) {
-    depths_.seen.clear();
-    depths_.expected.clear();
-    depths_.at.clear();
-    for (const FacePlace& place : places_) {
-      const double z = level.at(c.x + place.x * c.es0, c.y + place.y * c.es0);
+    seen_.clear();
+    which_.clear();
+    for (std::size_t k = 0; k < places_.size(); ++k) {
+      const double z = level.at(c.x + places_[k].x * c.es0, c.y + places_[k].y * c.es0);
       if (std::isnan(z)) continue;
-      depths_.seen.push_back(z / c.es0);
-      depths_.expected.push_back(place.z);
-      depths_.at.emplace_back(place);
+      seen_.push_back(z / c.es0);
+      which_.push_back(k);
+    }
+  }
+
+  /// Gram-Schmidt: each of 1, x, y, x^2 and y^2 at the places that are seen, without what the ones before it have of
+  /// it; and what the depths of the reference heads have beside these. Mostly all places are seen.
+  void prepare_places() {
+    if (prepared_ == which_) return;
+    prepared_ = which_;
+    expected_.clear();
+    for (const std::size_t k : prepared_) expected_.push_back(places_[k].z);
+    for (std::size_t n = 0; n < slopes_.size(); ++n) {
+      std::vector<double>& slope = slopes_[n];
+      slope.clear();
+      for (const std::size_t k : prepared_) {
+        const FacePlace& p = places_[k];
+        slope.push_back(std::array{1.0, p.x, p.y, p.x * p.x, p.y * p.y}[n]);
+      }
+      for (std::size_t before = 0; before < n; ++before) subtract_share(slope, slopes_[before]);
+      const double length = std::sqrt(dot(slope, slope));
+      for (double& value : slope) value /= length;
+      subtract_share(expected_, slope);
     }
   }
 
   /// The correlation of both depths beside slopes and curvature; -1 where too little is seen, or the relief is not as
   /// strong as a face's.
   [[nodiscard]] double likeness_at(const FrontRelief::Level& level, const Candidate& c) {
+    if (!has_nose(level, c)) return -1.0;
     look(level, c);
-    auto& [seen, expected, at] = depths_;
-    const std::size_t count = seen.size();
-    if (static_cast<double>(count) < least_seen * static_cast<double>(places_.size())) return -1.0;
-    sorted_ = seen;
-    const auto middle = sorted_.begin() + static_cast<std::ptrdiff_t>(count / 2);
+    if (static_cast<double>(seen_.size()) < least_seen * static_cast<double>(places_.size())) return -1.0;
+    prepare_places();
+    sorted_ = seen_;
+    const auto middle = sorted_.begin() + static_cast<std::ptrdiff_t>(sorted_.size() / 2);
     std::nth_element(sorted_.begin(), middle, sorted_.end());
-    for (double& z : seen) z = std::clamp(z - *middle, -deepest, deepest);
-    // Gram-Schmidt: each of 1, x, y, x^2 and y^2 without what the ones before it have of it.
-    for (std::size_t k = 0; k < slopes_.size(); ++k) {
-      std::vector<double>& slope = slopes_[k];
-      slope.resize(count);
-      for (std::size_t i = 0; i < count; ++i)
-        slope[i] = std::array{1.0, at[i].x, at[i].y, at[i].x * at[i].x, at[i].y * at[i].y}[k];
-      for (std::size_t before = 0; before < k; ++before) subtract_share(slope, slopes_[before]);
-      const double length = std::sqrt(dot(slope, slope));
-      for (double& value : slope) value /= length;
-      subtract_share(seen, slope);
-      subtract_share(expected, slope);
-    }
-    const double together = dot(seen, expected);
-    const double strength = together / dot(expected, expected);
+    for (double& z : seen_) z = std::clamp(z - *middle, -deepest, deepest);
+    for (const std::vector<double>& slope : slopes_) subtract_share(seen_, slope);
+    const double together = dot(seen_, expected_);
+    const double strength = together / dot(expected_, expected_);
     if (!(strength > weakest && strength < strongest)) return -1.0;
-    return together / std::sqrt(dot(seen, seen) * dot(expected, expected));
+    return together / std::sqrt(dot(seen_, seen_) * dot(expected_, expected_));
+  }
+
+  [[nodiscard]] bool has_nose(const FrontRelief::Level& level, const Candidate& c) const {
+    const auto depth = [&](const FacePlace& place) { return level.at(c.x + place.x * c.es0, c.y + place.y * c.es0); };
+    double sum = 0.0;
+    int seen = 0;
+    for (const FacePlace& place : around_nose_) {
+      const double z = depth(place);
+      if (std::isnan(z)) continue;
+      sum += z;
+      ++seen;
+    }
+    return seen > 0 && depth(nose_) - sum / seen > least_nose * c.es0;
   }
 
   /// The best places of all sizes, in no order.
@@ -232,8 +258,8 @@ class FaceSearch {
   /// The z of the reference heads' origin.
   [[nodiscard]] double depth_of(const Candidate& c) {
     look(relief_.with_step(knots_of_fit * c.es0), c);
-    std::vector<double> off(depths_.seen.size());
-    for (std::size_t i = 0; i < off.size(); ++i) off[i] = depths_.seen[i] - depths_.expected[i];
+    std::vector<double> off(seen_.size());
+    for (std::size_t i = 0; i < off.size(); ++i) off[i] = seen_[i] - places_[which_[i]].z;
     const auto middle = off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2);
     std::nth_element(off.begin(), middle, off.end());
     return *middle * c.es0;
@@ -241,10 +267,15 @@ class FaceSearch {
 
   const FrontRelief& relief_;
   std::vector<FacePlace> places_;
-  // Buffers of likeness_at().
-  Depths depths_;
-  std::vector<double> sorted_;
+  FacePlace nose_{0.0};
+  std::array<FacePlace, 4> around_nose_{};
+  // Buffers.
+  std::vector<double> seen_;           ///< by look()
+  std::vector<std::size_t> which_;     ///< of places_, as many as seen_
+  std::vector<std::size_t> prepared_;  ///< those of the next two
   std::array<std::vector<double>, 5> slopes_;
+  std::vector<double> expected_;
+  std::vector<double> sorted_;
 };
 
 }  // namespace
