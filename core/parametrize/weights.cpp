@@ -6,45 +6,58 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/parametrize/direction_pair.h"
+
 namespace semblante {
 namespace {
 
-/// The data of a neighbour j of point i, the same for every P.
-struct Neighbor {
-  glm::dvec3 direction;  ///< (j - i) / |j - i|
-  double distance;       ///< d_ij along the surface
+/// Two neighbours j of a point i, the same for every P. The last may be one alone.
+struct Neighbors {
+  DirectionPair direction;  ///< (j - i) / |j - i|
+  NumberPair distance{};    ///< d_ij along the surface
 };
 
-std::vector<std::vector<Neighbor>> neighbors_of_points(const PointDistances& distances,
-                                                       const std::vector<SlotSet>& regions) {
+std::vector<std::vector<Neighbors>> neighbors_of_points(const PointDistances& distances,
+                                                        const std::vector<SlotSet>& regions) {
   const std::vector<SlotSet> sets = region_neighbors(regions, distances.points.size());
-  std::vector<std::vector<Neighbor>> neighbors(sets.size());
+  std::vector<std::vector<Neighbors>> neighbors(sets.size());
   for (std::size_t i = 0; i < sets.size(); ++i) {
+    std::size_t count = 0;
     sets[i].for_each([&](std::size_t j) {
       const glm::dvec3 offset = distances.points[j].position - distances.points[i].position;
       const double length = glm::length(offset);
       // Two points at one place have no direction between them: no angle, so never valid.
-      if (length > 0.0) neighbors[i].push_back({offset / length, distances.between_points(i, j)});
+      if (!(length > 0.0)) return;
+      const std::size_t lane = count++ % 2;
+      if (lane == 0) neighbors[i].emplace_back();
+      neighbors[i].back().direction.set(lane, offset / length);
+      neighbors[i].back().distance[lane] = distances.between_points(i, j);
     });
   }
   return neighbors;
 }
 
 /// d of Eq. 1 to 3: the reach of point i's influence towards P. nullopt without a valid neighbour.
-std::optional<double> reach_towards(const glm::dvec3& p, const glm::dvec3& i, std::span<const Neighbor> neighbors) {
+std::optional<double> reach_towards(const glm::dvec3& p, const glm::dvec3& i, std::span<const Neighbors> neighbors) {
   const glm::dvec3 offset = p - i;
   const double length = glm::length(offset);
   if (!(length > 0.0)) return std::nullopt;
   double weighted = 0.0;
   double cosines = 0.0;
-  std::size_t valid = 0;
-  for (const Neighbor& j : neighbors) {
-    const double cosine = glm::dot(offset, j.direction) / length;
-    if (!(cosine > least_cosine)) continue;
-    weighted += j.distance * cosine;
-    cosines += cosine;
-    ++valid;
+  decltype(NumberPair{} > NumberPair{}) counts{};
+  for (const Neighbors& j : neighbors) {
+    const NumberPair cosine = j.direction.dot(offset) / length;
+    // Without a branch: half of the neighbours are valid, so that it would be unpredictable.
+    const auto is_valid = cosine > least_cosine;
+    const NumberPair counted = is_valid ? cosine : NumberPair{};
+    const NumberPair product = j.distance * counted;
+    counts -= is_valid;
+    for (std::size_t k = 0; k < 2; ++k) {
+      weighted += product[k];
+      cosines += counted[k];
+    }
   }
+  const auto valid = counts[0] + counts[1];
   if (valid == 0) return std::nullopt;
   // Eq. 2: one neighbour. weighted = d_i1 cos, so d_i1 / cos = weighted / cos^2; Eq. 3 with n = 1 would lose the
   // cosine.
@@ -56,7 +69,7 @@ std::optional<double> reach_towards(const glm::dvec3& p, const glm::dvec3& i, st
 
 WeightTable<double> part_weights(const Surface& surface, const PointDistances& distances,
                                  const std::vector<SlotSet>& regions) {
-  const std::vector<std::vector<Neighbor>> neighbors = neighbors_of_points(distances, regions);
+  const std::vector<std::vector<Neighbors>> neighbors = neighbors_of_points(distances, regions);
   WeightTable<double> table;
   std::vector<double> row;
   for (std::size_t m = 0; m < distances.members.size(); ++m) {
