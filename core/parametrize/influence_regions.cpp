@@ -1,73 +1,69 @@
 #include "core/parametrize/influence_regions.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include <glm/geometric.hpp>
 
+#include "core/parametrize/direction_pair.h"
+
 namespace semblante {
 namespace {
 
-/// From one point to another: g - f and its length, the same for every vertex.
-struct Offset {
-  glm::dvec3 vector;
-  double length;
-};
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
-std::vector<Offset> offsets_between(const std::vector<SurfacePoint>& points) {
-  std::vector<Offset> offsets;
-  offsets.reserve(points.size() * points.size());
-  for (const SurfacePoint& f : points) {
-    for (const SurfacePoint& g : points) {
-      const glm::dvec3 vector = g.position - f.position;
-      offsets.push_back({vector, glm::length(vector)});
-    }
-  }
-  return offsets;
-}
-
-/// Section 4 for one vertex P. `left` is scratch: the set A, as slots in rising order.
+/// Section 4 for one vertex P. Every round looks at all points, two at a time: that takes less time than to keep a list
+/// of those that are left.
 class RegionOfVertex {
  public:
   explicit RegionOfVertex(const std::vector<SurfacePoint>& points)
-      : points_(points), offsets_(offsets_between(points)), left_(points.size()) {}
+      : points_(points), pairs_((points.size() + 1) / 2), directions_(points.size() * pairs_), left_(pairs_) {
+    for (std::size_t f = 0; f < points.size(); ++f) {
+      for (std::size_t g = 0; g < points.size(); ++g) {
+        const glm::dvec3 offset = points[g].position - points[f].position;
+        const double length = glm::length(offset);
+        // A point at the same place is in no direction: it lies beyond no plane.
+        if (length > 0.0) directions_[f * pairs_ + g / 2].set(g % 2, offset / length);
+      }
+    }
+  }
 
   SlotSet operator()(const glm::dvec3& p, std::span<const double> distances) {
     // 1. A = all points reachable from P; B = empty.
-    std::size_t count = 0;
-    for (std::size_t slot = 0; slot < points_.size(); ++slot) {
-      if (distances[slot] != std::numeric_limits<double>::infinity()) left_[count++] = slot;
+    NumberPair nearest = {infinity, infinity};
+    for (std::size_t k = 0; k < pairs_; ++k) {
+      left_[k] = NumberPair{distances[2 * k], 2 * k + 1 < distances.size() ? distances[2 * k + 1] : infinity};
+      nearest = left_[k] < nearest ? left_[k] : nearest;
     }
     SlotSet chosen;
-    while (count > 0) {  // 4. until A is empty
+    while (std::min(nearest[0], nearest[1]) < infinity) {  // 4. until A is empty
       // 2. Move the nearest point from A to B; slots rise with the ids, so the first of a tie has the lowest id.
-      double least = distances[left_[0]];
-      for (std::size_t k = 1; k < count; ++k) least = std::min(least, distances[left_[k]]);
-      std::size_t pick = 0;
-      while (distances[left_[pick]] > least * (1.0 + distance_tie)) ++pick;
-      const std::size_t f = left_[pick];
+      const double tie = std::min(nearest[0], nearest[1]) * (1.0 + distance_tie);
+      std::size_t pair = 0;
+      while (left_[pair][0] > tie && left_[pair][1] > tie) ++pair;
+      const std::size_t f = 2 * pair + (left_[pair][0] > tie ? 1 : 0);
       chosen.insert(f);
+      left_[pair][f % 2] = infinity;
 
       // 3. Remove from A each g beyond the plane through f normal to f - P.
       const glm::dvec3 normal = points_[f].position - p;
       const double limit = least_cosine * glm::length(normal);
-      const Offset* const from_f = offsets_.data() + f * points_.size();
-      std::size_t kept = 0;
-      for (std::size_t k = 0; k < count; ++k) {
-        const std::size_t g = left_[k];
-        const bool beyond = glm::dot(from_f[g].vector, normal) > limit * from_f[g].length;
-        left_[kept] = g;
-        kept += static_cast<std::size_t>(!beyond && g != f);
+      const DirectionPair* const from_f = directions_.data() + f * pairs_;
+      nearest = NumberPair{infinity, infinity};
+      for (std::size_t k = 0; k < pairs_; ++k) {
+        left_[k] = from_f[k].dot(normal) > limit ? NumberPair{infinity, infinity} : left_[k];
+        nearest = left_[k] < nearest ? left_[k] : nearest;
       }
-      count = kept;
     }
     return chosen;
   }
 
  private:
   const std::vector<SurfacePoint>& points_;
-  std::vector<Offset> offsets_;  ///< #F x #F
-  std::vector<std::size_t> left_;
+  std::size_t pairs_;                      ///< of points, the last of an odd number with none
+  std::vector<DirectionPair> directions_;  ///< #F x #pairs: (g - f) / |g - f|, the same for every vertex
+  std::vector<NumberPair> left_;           ///< the set A: distances by slot, infinity for points that are not in it
 };
 
 }  // namespace
