@@ -19,9 +19,15 @@ struct PointDistances {
   std::vector<double> between;               ///< #F x #F, d_ij; symmetric
 
   [[nodiscard]] double at(std::size_t slot, std::size_t member) const { return to_members.at(slot, member); }
+  /// Fetches the distances of a member some places ahead: calls are for one member after the other.
+  __attribute__((always_inline)) void fetch_after(std::size_t member) const {
+    constexpr std::size_t ahead = 4;
+    if (member + ahead < members.size()) to_members.prefetch(member + ahead);
+  }
   /// All #F of a member, in `row`.
   std::span<const double> of_member(std::size_t member, std::vector<double>& row) const {
     row.resize(points.size());
+    fetch_after(member);
     to_members.read_row(member, row);
     return row;
   }

@@ -27,8 +27,6 @@ constexpr std::size_t landmark_count = 12;
 constexpr std::size_t block_size = 16;
 /// Number of blocks, likewise, whose lists are chosen from one list.
 constexpr std::size_t run_length = 16;
-/// A member's distances are fetched this many members ahead: calls are for one member after the other.
-constexpr std::size_t fetched_ahead = 4;
 
 double trust(double detour) {
   const double t = std::clamp((greatest_detour - detour) / (greatest_detour - trusted_detour), 0.0, 1.0);
@@ -173,8 +171,7 @@ std::span<const SiteKriging::Term> SiteKriging::at(std::size_t member) {
   candidates_.clear();
   to_target_.clear();
   terms_.clear();
-  const std::size_t soon = member + fetched_ahead;
-  if (soon < distances_.members.size()) distances_.to_members.prefetch(soon);
+  distances_.fetch_after(member);
   for (const NearSite& near : near_block(member / block_size)) {
     const glm::dvec3 away = p - near.position;
     const double squared = glm::dot(away, away);
