@@ -68,19 +68,16 @@ class LidMesh {
         irisd_(rig.fapu[FapuUnit::irisd].value_or(0.0)),
         largest_radius_(*std::max_element(lids_.ball.begin(), lids_.ball.end())) {
     const RigidMotion own = eye == 0 ? RigidMotion::left_lids : RigidMotion::right_lids;
-    constexpr std::uint32_t unknown = ~0U;
-    std::vector<std::uint32_t> number(model.positions.size(), unknown);
+    const std::vector<glm::dvec3> all_places = shares_of_places();
+    std::vector<std::uint32_t> numbers(model.positions.size(), unknown);
     for (const Triangle& t : model.triangles) {
       if (std::none_of(t.begin(), t.end(), [&](std::uint32_t v) { return rig.rigid_of_vertex[v] == own; })) continue;
       if (rig.parts[rig.part_of_vertex[t[0]].value()].role != PartRole::skin) continue;
-      Triangle& triangle = triangles_.emplace_back();
-      for (std::size_t k = 0; k < 3; ++k) {
-        std::uint32_t& n = number[t[k]];
-        if (n == unknown) n = add(model, rig, t[k]);
-        triangle[k] = n;
-      }
+      Places before{t, {}};
+      if (!find_places(corners_of(t, model.positions), all_places, before)) continue;
+      for (std::uint32_t& v : before.triangle) v = number_of(model, rig, v, numbers);
+      places_.push_back(std::move(before));
     }
-    find_places_before_ball();
   }
 
   /// The share of the places before the ball on the neutral face that are in it in other poses.
@@ -121,32 +118,38 @@ class LidMesh {
     return {glm::dvec3(at[triangle[0]]), glm::dvec3(at[triangle[1]]), glm::dvec3(at[triangle[2]])};
   }
 
-  std::uint32_t add(const Model& model, const Rig& rig, std::uint32_t file_vertex) {
+  static constexpr std::uint32_t unknown = ~0U;
+
+  /// The number of a vertex in this mesh, which gets it if it has none.
+  std::uint32_t number_of(const Model& model, const Rig& rig, std::uint32_t file_vertex,
+                          std::vector<std::uint32_t>& numbers) {
+    if (numbers[file_vertex] != unknown) return numbers[file_vertex];
     const auto points = rig.influence.points_of(file_vertex);
     const auto weights = rig.influence.weights_of(file_vertex);
     for (std::size_t k = 0; k < points.size(); ++k) moved_.influence.push(points[k], weights[k]);
     moved_.influence.end_row();
     moved_.rigid_of_vertex.push_back(rig.rigid_of_vertex[file_vertex]);
     rest_.push_back(model.positions[file_vertex]);
-    return static_cast<std::uint32_t>(rest_.size() - 1);
+    return numbers[file_vertex] = static_cast<std::uint32_t>(rest_.size() - 1);
   }
 
-  /// Those on the outside of lids: the inside is hidden behind it, and may lie in the ball.
-  void find_places_before_ball() {
-    const std::vector<glm::dvec3> all = shares_of_places();
-    const double ball = lids_.ball.back();
-    for (const Triangle& triangle : triangles_) {
-      const Corners corners = corners_of(triangle, rest_);
-      const glm::dvec3 outwards = area_vector(corners[0], corners[1], corners[2]);
-      if (!(glm::dot(outwards, corners[0] - pivot_) > 0.0)) continue;
-      Places before{triangle, {}};
-      for (const glm::dvec3& shares : all) {
-        const glm::dvec3 from = place(shares, corners) - pivot_;
-        if (from.z > 0.0 && !is_in_ball(from, glm::dvec3(lids_.gaze), 0.0)) before.shares.push_back(shares);
-      }
-      places_before_ball_ += before.shares.size();
-      if (squared_longest_edge(corners) > long_edge * long_edge * ball * ball) places_.push_back(std::move(before));
+  /// Counts the places of a triangle before the ball, on the outside of lids: the inside is hidden behind it, and may
+  /// lie in the ball. Whether the triangle is large enough to cut the ball; `before` has the places then.
+  bool find_places(const Corners& corners, const std::vector<glm::dvec3>& all_places, Places& before) {
+    const glm::dvec3 outwards = area_vector(corners[0], corners[1], corners[2]);
+    if (!(glm::dot(outwards, corners[0] - pivot_) > 0.0)) return false;
+    const double longest = long_edge * lids_.ball.back();
+    const bool is_large = squared_longest_edge(corners) > longest * longest;
+    if (!is_large && is_before_ball(corners)) {
+      places_before_ball_ += all_places.size();
+      return false;
     }
+    for (const glm::dvec3& shares : all_places) {
+      const glm::dvec3 from = place(shares, corners) - pivot_;
+      if (from.z > 0.0 && !is_in_ball(from, glm::dvec3(lids_.gaze), 0.0)) before.shares.push_back(shares);
+    }
+    places_before_ball_ += before.shares.size();
+    return is_large && !before.shares.empty();
   }
 
   [[nodiscard]] bool is_in_ball(const glm::dvec3& from_pivot, const glm::dvec3& pole, double deep) const {
@@ -160,6 +163,13 @@ class LidMesh {
     double nearest = std::numeric_limits<double>::infinity();
     for (const glm::dvec3& corner : corners) nearest = std::min(nearest, glm::dot(corner - pivot_, corner - pivot_));
     return nearest - squared_longest_edge(corners) / 3.0 > largest_radius_ * largest_radius_;
+  }
+
+  /// Whether all places of a triangle are before the ball.
+  [[nodiscard]] bool is_before_ball(const Corners& corners) const {
+    const bool is_in_front =
+        std::all_of(corners.begin(), corners.end(), [&](const glm::dvec3& corner) { return corner.z > pivot_.z; });
+    return is_in_front && is_clear_of_ball(corners);
   }
 
   [[nodiscard]] std::size_t count_in_ball(const semblante_rig& rig, const std::array<double, 2>& closure,
@@ -196,11 +206,10 @@ class LidMesh {
   KernelRig kernel_rig_;
   double irisd_;
   double largest_radius_;
-  std::vector<Triangle> triangles_;
   std::size_t places_before_ball_ = 0;
-  std::vector<Places> places_;  ///< places before the ball on triangles that are large enough to cut it
-  std::vector<glm::vec3> rest_;
-  Rig moved_;  ///< what moves the vertices: influence and rigid_of_vertex alone
+  std::vector<Places> places_;   ///< places before the ball on triangles that are large enough to cut it
+  std::vector<glm::vec3> rest_;  ///< the vertices of those triangles
+  Rig moved_;                    ///< what moves the vertices: influence and rigid_of_vertex alone
 };
 
 double best_lift(const LidMesh& mesh) {
