@@ -105,11 +105,15 @@ double KrigingKernel::reach() const { return length * std::pow(-std::log(least),
 
 KernelTable::KernelTable(const KrigingKernel& kernel)
     : kernel_(kernel), steps_per_unit_(static_cast<double>(table_steps) / kernel.reach()) {
-  for (std::size_t i = 0; i <= table_steps + 1; ++i) {
-    const double distance = static_cast<double>(i) / steps_per_unit_;
-    const double value = kernel.at(distance);
-    const double slope = i == 0 ? 0.0 : kernel.power * std::log(value) * value / static_cast<double>(i);
-    nodes_.push_back({value, slope});
+  double value = 1.0;
+  double slope = 0.0;  // per step
+  for (std::size_t i = 1; i <= table_steps + 1; ++i) {
+    const double next = kernel.at(static_cast<double>(i) / steps_per_unit_);
+    const double next_slope = kernel.power * std::log(next) * next / static_cast<double>(i);
+    const double rise = next - value;
+    from_node_.push_back({value, slope, 3.0 * rise - 2.0 * slope - next_slope, slope + next_slope - 2.0 * rise});
+    value = next;
+    slope = next_slope;
   }
 }
 
@@ -117,11 +121,7 @@ double KernelTable::at(double distance) const {
   const double place = distance * steps_per_unit_;
   const auto i = static_cast<std::size_t>(place);
   if (i < sharp_steps) return kernel_.at(distance);
-  const double t = place - static_cast<double>(i);
-  const double s = 1.0 - t;
-  const Node& a = nodes_[i];
-  const Node& b = nodes_[i + 1];
-  return s * s * ((1.0 + 2.0 * t) * a.value + t * a.slope) + t * t * ((1.0 + 2.0 * s) * b.value - s * b.slope);
+  return from_node_[i].at(place - static_cast<double>(i));
 }
 
 SiteKriging::SiteKriging(const Surface& surface, const PointDistances& distances, std::vector<KrigingSite> sites,

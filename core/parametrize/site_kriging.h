@@ -52,12 +52,14 @@ class KernelTable {
   [[nodiscard]] double at(double distance) const;
 
  private:
-  struct Node {
-    double value, slope;  ///< per step
+  /// The value t of the way from a node to the next one: of degree three, with the kernel's values and slopes at both.
+  struct Cubic {
+    double constant, linear, quadratic, cubic;
+    [[nodiscard]] double at(double t) const { return constant + t * (linear + t * (quadratic + t * cubic)); }
   };
   KrigingKernel kernel_;
   double steps_per_unit_;
-  std::vector<Node> nodes_;
+  std::vector<Cubic> from_node_;
 };
 
 /// Kriging without negative weights (non_negative_kriging.h) from sites of one part to its vertices.
