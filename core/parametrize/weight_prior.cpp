@@ -94,6 +94,7 @@ WeightPrior::WeightPrior(std::span<const Entry> entries) {
   offsets_.assign(column_count * column_count + 1, 0);
   for (const Placed& p : placed) {
     ++offsets_[p.cell + 1];
+    corrected_[p.cell / column_count].insert(p.correction.point);
     corrections_.push_back(p.correction);
   }
   std::partial_sum(offsets_.begin(), offsets_.end(), offsets_.begin());
@@ -101,8 +102,8 @@ WeightPrior::WeightPrior(std::span<const Entry> entries) {
 
 void WeightPrior::correct(WeightRow& row, const glm::dvec3& position, const Places& places) const {
   if (offsets_.empty()) return;
-  std::array<std::uint8_t, feature_point_count> ids{};
-  std::array<double, feature_point_count> shares{};
+  std::array<std::uint8_t, feature_point_count> ids;
+  std::array<double, feature_point_count> shares;
   std::size_t count = 0;
   double sum = 0.0;
   row.for_each([&](std::size_t id, double w) {
@@ -113,9 +114,11 @@ void WeightPrior::correct(WeightRow& row, const glm::dvec3& position, const Plac
   });
   if (count == 0) return;
   std::array<double, feature_point_count> change{};
+  SlotSet changed;
   const double off_edges = share_off_edges(row);
   for (std::size_t a = 0; a < count; ++a) {
     const std::size_t i = ids[a];
+    changed.unite(corrected_[i]);
     for (std::size_t b = a + 1; b < count; ++b) {
       const auto of_pair = between(cell(i, ids[b]), cell(i, ids[b]) + 1);
       if (of_pair.empty() || places[i].vertex == places[ids[b]].vertex) continue;
@@ -132,16 +135,16 @@ void WeightPrior::correct(WeightRow& row, const glm::dvec3& position, const Plac
     for (double& amount : amounts) amount = shares[a] * amount * off_edges;
     for (const Correction& c : of_offsets) change[c.point] += amounts[c.column - first_axis] * c.factor;
   }
-  for (std::size_t id = 0; id < change.size(); ++id) {
+  changed.for_each([&](std::size_t id) {
     const double more = change[id];
-    if (more == 0.0 || places[id].vertex == nowhere || (more < 0.0 && row[id] == 0.0)) continue;
+    if (more == 0.0 || places[id].vertex == nowhere || (more < 0.0 && row[id] == 0.0)) return;
     double& w = row.at(id);
     if (more > 0.0) {
       w += more;
     } else {
       w *= w / (w - more);
     }
-  }
+  });
   const double corrected = sum_of(row);
   if (corrected > 1.0) row.for_each([&](std::size_t, double& w) { w /= corrected; });
 }

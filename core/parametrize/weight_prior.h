@@ -7,6 +7,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "core/parametrize/slot_set.h"
 #include "core/parametrize/weight_row.h"
 
 namespace semblante {
@@ -87,6 +88,7 @@ class WeightPrior {
 
   std::vector<std::uint32_t> offsets_;  ///< by cell (i < j), one more; empty: no corrections
   std::vector<Correction> corrections_;
+  std::array<SlotSet, feature_point_count> corrected_;  ///< by i: the points of the corrections of all its cells
 };
 
 /// The table of weight_prior_table.inc, trained by tests/bench/prior on the heads its README names.
