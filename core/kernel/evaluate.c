@@ -123,11 +123,11 @@ void semblante_evaluate(const semblante_rig* rig, const semblante_frame* frame, 
   }
 
   for (int eye = 0; eye < 2; ++eye) {
-    semblante_stop_lids(eye, pose);
+    semblante_stop_lids(eye, angle[eye][0] * SEMBLANTE_AU_RADIANS, pose);
   }
   semblante_move_companions(rig, set, own, pose->fp);
   for (int eye = 0; eye < 2; ++eye) {
-    semblante_close_lids(eye, angle[eye][0] * SEMBLANTE_AU_RADIANS, pose);
+    semblante_close_lids(eye, pose);
   }
 
   for (int part = 0; part < 3; ++part) {

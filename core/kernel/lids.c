@@ -37,17 +37,6 @@ float semblante_unit_at(uint8_t fp, float unit, const semblante_lids lids[2]) {
   return unit;
 }
 
-void semblante_stop_lids(int eye, semblante_pose* pose) {
-  const float opening = pose->lids[eye].opening;
-  if (!(opening > 0.0F)) {
-    return;
-  }
-  float* const upper = &pose->fp[SEMBLANTE_UPPER_LID(eye) * 3 + 1];
-  float* const lower = &pose->fp[SEMBLANTE_LOWER_LID(eye) * 3 + 1];
-  *upper = *upper < -opening ? -opening : *upper;
-  *lower = *lower > opening ? opening : *lower;
-}
-
 /* The least closure of a lid: negative, how far it opens beyond neutral. */
 static float widest_closure(float slit) {
   if (!(slit > 0.0F)) {
@@ -59,23 +48,39 @@ static float widest_closure(float slit) {
   return clamped(0.5F - WIDEST_RIM / slit, -WIDEST, 0.0F);
 }
 
-void semblante_close_lids(int eye, float pitch, semblante_pose* pose) {
+void semblante_stop_lids(int eye, float pitch, semblante_pose* pose) {
   const semblante_lids* const lids = &pose->lids[eye];
-  float* const closure = pose->lid_closure[eye];
-  closure[0] = closure[1] = 0.0F;
-  if (!(lids->opening > 0.0F)) {
+  const float opening = lids->opening;
+  if (!(opening > 0.0F)) {
+    return;
+  }
+  float* const upper_y = &pose->fp[SEMBLANTE_UPPER_LID(eye) * 3 + 1];
+  float* const lower_y = &pose->fp[SEMBLANTE_LOWER_LID(eye) * 3 + 1];
+  *upper_y = *upper_y < -opening ? -opening : *upper_y;
+  *lower_y = *lower_y > opening ? opening : *lower_y;
+  if (!(lids->slit > 0.0F)) {
     return;
   }
   const float widest = widest_closure(lids->slit);
-  float upper = clamped(-pose->fp[SEMBLANTE_UPPER_LID(eye) * 3 + 1] / lids->opening, widest, 1.0F);
-  float lower = clamped(pose->fp[SEMBLANTE_LOWER_LID(eye) * 3 + 1] / lids->opening, widest, 1.0F);
-  if (lids->slit > 0.0F) {
-    /* A lid follows the gaze as far as the eye is open. */
-    const float gaze = clamped(pitch, -STEEPEST, STEEPEST) / lids->slit;
-    const float open = clamped(1.0F - upper - lower, 0.0F, 1.0F);
-    upper = clamped(upper + open * lids->gaze_share[0] * gaze, widest, 1.0F);
-    lower = clamped(lower - open * lids->gaze_share[1] * gaze, widest, 1.0F);
+  const float upper = clamped(-*upper_y / opening, widest, 1.0F);
+  const float lower = clamped(*lower_y / opening, widest, 1.0F);
+  /* A lid follows the gaze as far as the eye is open. */
+  const float open = clamped(1.0F - upper - lower, 0.0F, 1.0F);
+  const float gaze = open * clamped(pitch, -STEEPEST, STEEPEST) / lids->slit;
+  *upper_y += opening * (upper - clamped(upper + lids->gaze_share[0] * gaze, widest, 1.0F));
+  *lower_y += opening * (clamped(lower - lids->gaze_share[1] * gaze, widest, 1.0F) - lower);
+}
+
+void semblante_close_lids(int eye, semblante_pose* pose) {
+  const float opening = pose->lids[eye].opening;
+  float* const closure = pose->lid_closure[eye];
+  closure[0] = closure[1] = 0.0F;
+  if (!(opening > 0.0F)) {
+    return;
   }
+  const float widest = widest_closure(pose->lids[eye].slit);
+  const float upper = clamped(-pose->fp[SEMBLANTE_UPPER_LID(eye) * 3 + 1] / opening, widest, 1.0F);
+  const float lower = clamped(pose->fp[SEMBLANTE_LOWER_LID(eye) * 3 + 1] / opening, widest, 1.0F);
   const float both = upper + lower; /* lids meet and do not cross */
   closure[0] = both > 1.0F ? upper / both : upper;
   closure[1] = both > 1.0F ? lower / both : lower;

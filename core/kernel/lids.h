@@ -18,11 +18,12 @@
  * wider than IRISD, its own opening, so that 1024 closes either of two unequal eyes. */
 float semblante_unit_at(uint8_t fp, float unit, const semblante_lids lids[2]);
 
-/* Stops the points of the lids of one eye in pose->fp where the eye is closed, so that what follows them stops too. */
-void semblante_stop_lids(int eye, semblante_pose* pose);
+/* Stops the points of the lids of one eye in pose->fp where the eye is closed, and moves them as far as open lids follow
+ * its pitch (radians, positive down): what follows the points, as the folds of lids, does so too. */
+void semblante_stop_lids(int eye, float pitch, semblante_pose* pose);
 
-/* pose->lid_closure of one eye, from the displacements in pose->fp and the eye's pitch (radians, positive down). */
-void semblante_close_lids(int eye, float pitch, semblante_pose* pose);
+/* pose->lid_closure of one eye, from the displacements in pose->fp. */
+void semblante_close_lids(int eye, semblante_pose* pose);
 
 /* The roll of the lids of one eye in a pose, for all their vertices. */
 typedef struct semblante_lid_roll {

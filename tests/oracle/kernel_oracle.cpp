@@ -115,18 +115,29 @@ double between(const float* table, int count, double at) {
   return table[k] + (at - k) * (static_cast<double>(table[k + 1]) - table[k]);
 }
 
-std::array<double, 2> closure_of(const semblante_lids& lids, double upper_y, double lower_y, double pitch) {
-  if (lids.opening <= 0.0F) return {0.0, 0.0};
+/// Of upper and lower lid, by the heights of their points.
+struct Closures {
+  double upper, lower;
+};
+
+double widest_closure(const semblante_lids& lids) {
   const double of_large_eye = std::min(0.0, 0.5 - 1.0 / lids.slit);
-  const double widest = std::min(std::max(-0.75, of_large_eye), 1.0 - 0.75 / lids.slit);
-  double upper = limited(-upper_y / lids.opening, widest, 1.0);
-  double lower = limited(lower_y / lids.opening, widest, 1.0);
+  return std::min(std::max(-0.75, of_large_eye), 1.0 - 0.75 / lids.slit);
+}
+
+Closures closures_of(const semblante_lids& lids, double upper_y, double lower_y) {
+  const double widest = widest_closure(lids);
+  return {limited(-upper_y / lids.opening, widest, 1.0), limited(lower_y / lids.opening, widest, 1.0)};
+}
+
+/// By how much an eye's pitch closes its lids, as far as they are open.
+Closures closed_by_gaze(const semblante_lids& lids, const Closures& by_points, double pitch) {
+  const double widest = widest_closure(lids);
   const double gaze = limited(pitch, -0.8, 0.8) / lids.slit;
-  const double open = limited(1.0 - upper - lower, 0.0, 1.0);
-  upper = limited(upper + open * lids.gaze_share[0] * gaze, widest, 1.0);
-  lower = limited(lower - open * lids.gaze_share[1] * gaze, widest, 1.0);
-  const double both = std::max(1.0, upper + lower);
-  return {upper / both, lower / both};
+  const double open = limited(1.0 - by_points.upper - by_points.lower, 0.0, 1.0);
+  const double upper = limited(by_points.upper + open * lids.gaze_share[0] * gaze, widest, 1.0);
+  const double lower = limited(by_points.lower - open * lids.gaze_share[1] * gaze, widest, 1.0);
+  return {upper - by_points.upper, lower - by_points.lower};
 }
 
 }  // namespace
@@ -190,14 +201,20 @@ Pose evaluate(const semblante_rig& rig, const semblante_frame& frame) {
   for (int eye = 0; eye < 2; ++eye) {
     const double opening = rig.lids[eye].opening;
     if (opening <= 0.0) continue;
-    pose.fp[upper_lid_of(eye)][1] = std::max(-opening, pose.fp[upper_lid_of(eye)][1]);
-    pose.fp[lower_lid_of(eye)][1] = std::min(opening, pose.fp[lower_lid_of(eye)][1]);
+    double& upper = pose.fp[upper_lid_of(eye)][1];
+    double& lower = pose.fp[lower_lid_of(eye)][1];
+    upper = std::max(-opening, upper);
+    lower = std::min(opening, lower);
+    const Closures by_gaze = closed_by_gaze(rig.lids[eye], closures_of(rig.lids[eye], upper, lower), angle[eye][0]);
+    upper -= opening * by_gaze.upper;
+    lower += opening * by_gaze.lower;
   }
   follow(rig, sets, own, pose);
   for (int eye = 0; eye < 2; ++eye) {
-    const int upper_lid = upper_lid_of(eye);
-    const int lower_lid = lower_lid_of(eye);
-    pose.lid_closure[eye] = closure_of(rig.lids[eye], pose.fp[upper_lid][1], pose.fp[lower_lid][1], angle[eye][0]);
+    if (rig.lids[eye].opening <= 0.0F) continue;
+    const Closures closures = closures_of(rig.lids[eye], pose.fp[upper_lid_of(eye)][1], pose.fp[lower_lid_of(eye)][1]);
+    const double both = std::max(1.0, closures.upper + closures.lower);
+    pose.lid_closure[eye] = {closures.upper / both, closures.lower / both};
   }
   const auto compose = [](const std::array<double, 3>& a) {
     return rotation(1, a[1]) * rotation(0, a[0]) * rotation(2, a[2]);

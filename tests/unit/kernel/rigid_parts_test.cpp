@@ -154,6 +154,21 @@ TEST(Kernel_Lids, FollowTheGaze_AsFarAsTheyAreOpen) {
   expect_near(on_lid(rig, frame, on_circle(0.0F, 3.0), upper_lid), on_circle(0.0F, -1.0), 1e-5F);
 }
 
+// The edge of a lid that looks up passed its fold, which stayed where it was.
+TEST(Kernel_Lids, ThatFollowTheGaze_TakeTheirFoldsAlong) {
+  TestRig rig;
+  with_lids(rig);
+  const semblante_companion follows{fold, upper_lid, 0, 0, 0.5F};
+  rig.rig.companion = &follows;
+  rig.rig.companion_count = 1;
+  semblante_frame frame{};
+  frame.fap[25] = -20000.0F;  // 0.2 rad up: the lid rises by 0.2 of the slit
+  semblante_pose pose;
+  semblante_evaluate(&rig.rig, &frame, &pose);
+  EXPECT_NEAR(pose.fp[upper_lid * 3 + 1], 0.8F, 1e-5F);
+  EXPECT_NEAR(pose.fp[fold * 3 + 1], 0.4F, 1e-5F);
+}
+
 // Lids of few vertices are flat between them, so these go round the ball in a greater arc.
 TEST(Kernel_Lids, RiseFromTheBallWithTheirWay_ByTheirLift) {
   TestRig rig;
