@@ -18,8 +18,8 @@
  * wider than IRISD, its own opening, so that 1024 closes either of two unequal eyes. */
 float semblante_unit_at(uint8_t fp, float unit, const semblante_lids lids[2]);
 
-/* Stops the points of the lids of one eye in pose->fp where the eye is closed, and moves them as far as open lids follow
- * its pitch (radians, positive down): what follows the points, as the folds of lids, does so too. */
+/* Stops the points of the lids of one eye in pose->fp where the eye is closed, and moves them as far as open lids
+ * follow its pitch (radians, positive down): what follows the points, as the folds of lids, does so too. */
 void semblante_stop_lids(int eye, float pitch, semblante_pose* pose);
 
 /* pose->lid_closure of one eye, from the displacements in pose->fp. */
