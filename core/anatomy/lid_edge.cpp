@@ -7,6 +7,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/anatomy/part_roles.h"
+#include "core/anatomy/pivots.h"
 #include "core/geometry/shortest_path.h"
 
 namespace semblante {
@@ -25,6 +27,23 @@ const SurfacePoint* find(std::span<const SurfacePoint> points, std::string_view 
   return at != points.end() ? &*at : nullptr;
 }
 
+/// A place is hidden in the eyeball if it is deeper in it than this share of the ball's radius, and deeper than the
+/// middle of the lid's edge by the other one: that of lids which the ball pierces lies in it too.
+constexpr double least_depth = 0.04;
+constexpr double least_depth_behind_middle = 0.05;
+/// A step to a hidden place counts as so many: from a corner that is one, the way back to the edge that is seen is
+/// shorter than that along the inside.
+constexpr double cost_of_hidden = 4.0;
+
+StepCost cost_behind(const std::optional<Sphere>& ball, const Surface& surface, const glm::dvec3& middle) {
+  if (!ball) return {};
+  const double hidden = std::min((1.0 - least_depth) * ball->radius,
+                                 glm::distance(middle, ball->center) - least_depth_behind_middle * ball->radius);
+  return [&surface, hidden, center = ball->center](SurfaceVertexId v) {
+    return glm::distance(surface.positions[v.value()], center) < hidden ? cost_of_hidden : 1.0;
+  };
+}
+
 SurfaceVertexId nearest_of_part(const Surface& surface, PartId part, const glm::dvec3& to) {
   const auto members = surface.members_of(part);
   return *std::min_element(members.begin(), members.end(), [&](SurfaceVertexId a, SurfaceVertexId b) {
@@ -33,7 +52,7 @@ SurfaceVertexId nearest_of_part(const Surface& surface, PartId part, const glm::
 }
 
 std::optional<LidEdge> lid_edge(const Surface& surface, std::span<const SurfacePoint> points, std::string_view middle,
-                                const std::array<std::string_view, 2>& corners) {
+                                const std::array<std::string_view, 2>& corners, const std::optional<Sphere>& ball) {
   const SurfacePoint* const at_middle = find(points, middle);
   const std::array<const SurfacePoint*, 2> at_corners = {find(points, corners[0]), find(points, corners[1])};
   if (at_middle == nullptr || at_corners[0] == nullptr || at_corners[1] == nullptr) return std::nullopt;
@@ -42,6 +61,7 @@ std::optional<LidEdge> lid_edge(const Surface& surface, std::span<const SurfaceP
   edge.corners = {*at_corners[0], *at_corners[1]};
   const PartId part = surface.part_of[edge.middle.vertex.value()];
   const double width = glm::distance(edge.corners[0].position, edge.corners[1].position);
+  const StepCost cost = cost_behind(ball, surface, edge.middle.position);
   for (std::size_t c = 0; c < 2; ++c) {
     SurfaceVertexId end = edge.corners[c].vertex;
     edge.ends_at_corner[c] = surface.part_of[end.value()] == part;
@@ -50,7 +70,7 @@ std::optional<LidEdge> lid_edge(const Surface& surface, std::span<const SurfaceP
       const double step = glm::distance(surface.positions[end.value()], edge.corners[c].position);
       if (step > greatest_step_to_corner * width) return std::nullopt;
     }
-    edge.to_corner[c] = shortest_path(surface, edge.middle.vertex, end);
+    edge.to_corner[c] = shortest_path(surface, edge.middle.vertex, end, cost);
   }
   return edge;
 }
@@ -74,11 +94,13 @@ void meet_at_end_of_opening(const Surface& surface, std::size_t c, LidEdge& edge
 
 }  // namespace
 
-std::optional<EyeEdges> find_eye_edges(const Surface& surface, std::span<const SurfacePoint> points, std::size_t eye) {
+std::optional<EyeEdges> find_eye_edges(const Surface& surface, std::span<const SurfacePoint> points, std::size_t eye,
+                                       std::span<const Part> parts) {
   const std::array<std::string_view, 2> corners =
       eye == 0 ? std::array<std::string_view, 2>{"3.11", "3.7"} : std::array<std::string_view, 2>{"3.8", "3.12"};
-  auto upper = lid_edge(surface, points, eye == 0 ? "3.1" : "3.2", corners);
-  auto lower = lid_edge(surface, points, eye == 0 ? "3.3" : "3.4", corners);
+  const std::optional<Sphere> ball = round_eyeball(surface, parts, eyeball_role(eye));
+  auto upper = lid_edge(surface, points, eye == 0 ? "3.1" : "3.2", corners, ball);
+  auto lower = lid_edge(surface, points, eye == 0 ? "3.3" : "3.4", corners, ball);
   if (!upper || !lower) return std::nullopt;
   for (std::size_t c = 0; c < 2; ++c) {
     meet_at_end_of_opening(surface, c, *upper, *lower);

@@ -8,6 +8,7 @@
 
 #include "core/anatomy/point_lookup.h"
 #include "core/geometry/surface.h"
+#include "core/types/rig.h"
 
 namespace semblante {
 
@@ -33,7 +34,9 @@ struct EyeEdges {
 };
 
 /// The edges of an eye (0 left, 1 right). Empty if a point is not on the surface, or if a corner is too far from the
-/// part of a lid.
-std::optional<EyeEdges> find_eye_edges(const Surface& surface, std::span<const SurfacePoint> points, std::size_t eye);
+/// part of a lid. With `parts`, the edges stay before the eyeball: a corner that is marked inside a lid is reached from
+/// the edge that is seen, not along the inside.
+std::optional<EyeEdges> find_eye_edges(const Surface& surface, std::span<const SurfacePoint> points, std::size_t eye,
+                                       std::span<const Part> parts = {});
 
 }  // namespace semblante

@@ -239,9 +239,9 @@ void add_rim_sites(const Surface& surface, const EyeEdges& eye, const ModelledEy
 }
 
 void add_lids(const Surface& surface, std::span<const SurfacePoint> points, const ModelledEyes& modelled,
-              std::vector<MarginSite>& sites) {
-  const std::array<std::optional<EyeEdges>, 2> eyes = {find_eye_edges(surface, points, 0),
-                                                       find_eye_edges(surface, points, 1)};
+              std::span<const Part> parts, std::vector<MarginSite>& sites) {
+  const std::array<std::optional<EyeEdges>, 2> eyes = {find_eye_edges(surface, points, 0, parts),
+                                                       find_eye_edges(surface, points, 1, parts)};
   for (std::size_t k = 0; k < eyes.size(); ++k) {
     const auto& eye = eyes[k];
     if (!eye) continue;
@@ -325,9 +325,9 @@ void add_lips(const Surface& surface, std::span<const SurfacePoint> points, std:
 }  // namespace
 
 std::vector<MarginSite> margin_sites(const Surface& surface, std::span<const SurfacePoint> points,
-                                     const ModelledEyes& modelled) {
+                                     const ModelledEyes& modelled, std::span<const Part> parts) {
   std::vector<MarginSite> sites;
-  add_lids(surface, points, modelled, sites);
+  add_lids(surface, points, modelled, parts, sites);
   add_lips(surface, points, sites);
   // A vertex with a point follows that point, unless it is on the line of both lips.
   std::vector<MarginSite> result;

@@ -40,10 +40,11 @@ struct MarginSite {
 ///   single vertices, as on coarse heads) follows the mean of both, points at it included: if it followed the lip of
 ///   its point alone, the line would become a zigzag when the mouth opens.
 ///
-/// Edges of lids are shortest paths between the points that bound them, for lips see lip_edge.h; an edge with a missing
-/// point has no places. A lid on a part without corners (a shell behind the fold) ends at its vertices nearest to the
-/// corners. A fold far below its brow (4.3, 4.4) or on another part than its lid has no places.
+/// Edges of lids are shortest paths between the points that bound them, before the eyeballs among `parts`, for lips see
+/// lip_edge.h; an edge with a missing point has no places. A lid on a part without corners (a shell behind the fold)
+/// ends at its vertices nearest to the corners. A fold far below its brow (4.3, 4.4) or on another part than its lid
+/// has no places.
 std::vector<MarginSite> margin_sites(const Surface& surface, std::span<const SurfacePoint> points,
-                                     const ModelledEyes& modelled = {});
+                                     const ModelledEyes& modelled = {}, std::span<const Part> parts = {});
 
 }  // namespace semblante

@@ -70,7 +70,20 @@ std::optional<Sphere> fit_ball(const Surface& surface, PartId part) {
   return ball;
 }
 
+/// Flat: only an iris. A rotation about its own centre would only tilt it.
+bool is_flat(const Part& part) { return part.box_max.z - part.box_min.z < 0.4F * (part.box_max.x - part.box_min.x); }
+
 }  // namespace
+
+std::optional<Sphere> round_eyeball(const Surface& surface, std::span<const Part> parts, PartRole role) {
+  const std::optional<std::uint32_t> part = largest_part(parts, role);
+  if (!part || is_flat(parts[*part])) return std::nullopt;
+  const std::optional<Sphere> ball = fit_ball(surface, PartId(*part));
+  const double width = static_cast<double>(parts[*part].box_max.x) - static_cast<double>(parts[*part].box_min.x);
+  const bool is_round =
+      ball && ball->rms_error < 0.1 * ball->radius && glm::distance(ball->center, box_center(parts[*part])) < width;
+  return is_round ? ball : std::nullopt;
+}
 
 glm::vec3 eye_pivot(const Surface& surface, std::span<const Part> parts, PartRole role, const FeaturePointSet& points) {
   const FeaturePoint* const pupil = find_point(points, role == PartRole::left_eye ? "3.5" : "3.6");
@@ -85,12 +98,9 @@ glm::vec3 eye_pivot(const Surface& surface, std::span<const Part> parts, PartRol
   }
 
   const glm::dvec3 center = box_center(parts[*part]);
-  const glm::dvec3 extent = glm::dvec3(parts[*part].box_max) - glm::dvec3(parts[*part].box_min);
-  // Flat: only an iris. A rotation about its own centre would only tilt it.
-  if (extent.z < 0.4 * extent.x) return glm::vec3(center - glm::dvec3(0.0, 0.0, behind));
-  const std::optional<Sphere> ball = fit_ball(surface, PartId(*part));
-  const bool round = ball && ball->rms_error < 0.1 * ball->radius && glm::distance(ball->center, center) < extent.x;
-  return glm::vec3(round ? ball->center : center);
+  if (is_flat(parts[*part])) return glm::vec3(center - glm::dvec3(0.0, 0.0, behind));
+  const std::optional<Sphere> ball = round_eyeball(surface, parts, role);
+  return glm::vec3(ball ? ball->center : center);
 }
 
 glm::vec3 head_pivot(std::span<const Part> parts, const FeaturePointSet& points, const NeckJoints& joints) {

@@ -14,9 +14,13 @@ namespace {
 /// Sums in another order differ by roundings: what is longer than a path by more is longer.
 constexpr double roundings = 1.0 + 1e-9;
 
+double length_of(const Surface::Step& step, const StepCost& cost) {
+  return cost ? step.length * cost(step.to) : step.length;
+}
+
 /// The length of a shortest path on one part, up to roundings; infinite if there is none. A* with the straight
 /// distance.
-double shortest_length(const Surface& surface, SurfaceVertexId from, SurfaceVertexId to) {
+double shortest_length(const Surface& surface, SurfaceVertexId from, SurfaceVertexId to, const StepCost& cost) {
   struct Entry {
     double at_least;  ///< of a path through the vertex
     double distance;
@@ -39,7 +43,7 @@ double shortest_length(const Surface& surface, SurfaceVertexId from, SurfaceVert
     if (at.vertex == to.value()) return at.distance;
     if (at.distance > distances.at(at.vertex)) continue;  // stale
     for (const Surface::Step& step : surface.steps_from(SurfaceVertexId(at.vertex))) {
-      lower(step.to, at.distance + step.length);
+      lower(step.to, at.distance + length_of(step, cost));
     }
   }
   return std::numeric_limits<double>::infinity();
@@ -47,7 +51,8 @@ double shortest_length(const Surface& surface, SurfaceVertexId from, SurfaceVert
 
 }  // namespace
 
-std::vector<SurfaceVertexId> shortest_path(const Surface& surface, SurfaceVertexId from, SurfaceVertexId to) {
+std::vector<SurfaceVertexId> shortest_path(const Surface& surface, SurfaceVertexId from, SurfaceVertexId to,
+                                           const StepCost& cost) {
   struct Reached {
     double distance;
     SurfaceVertexId before;
@@ -58,7 +63,7 @@ std::vector<SurfaceVertexId> shortest_path(const Surface& surface, SurfaceVertex
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   if (surface.part_of[from.value()] != surface.part_of[to.value()]) return {};
   // The search leaves out what lies on no path of this length: most of the circle around `from`.
-  const double most = shortest_length(surface, from, to) * roundings;
+  const double most = shortest_length(surface, from, to, cost) * roundings;
   reached.emplace(from.value(), Reached{0.0, from, false});
   queue.emplace(0.0, from.value());
   while (!queue.empty()) {
@@ -69,7 +74,7 @@ std::vector<SurfaceVertexId> shortest_path(const Surface& surface, SurfaceVertex
     here.settled = true;
     if (at == to.value()) break;
     for (const Surface::Step& step : surface.steps_from(SurfaceVertexId(at))) {
-      const double longer = distance + step.length;
+      const double longer = distance + length_of(step, cost);
       const glm::dvec3& place = surface.positions[step.to.value()];
       if (longer + glm::distance(place, surface.positions[to.value()]) > most) continue;
       const auto [entry, is_new] = reached.try_emplace(step.to.value(), Reached{longer, SurfaceVertexId(at), false});

@@ -81,7 +81,7 @@ std::vector<EdgesOfEye> edges_of_eyes(const Surface& surface, std::span<const Pa
   };
   std::vector<EdgesOfEye> eyes;
   for (std::size_t eye = 0; eye < 2; ++eye) {
-    const std::optional<EyeEdges> edges = find_eye_edges(surface, points, eye);
+    const std::optional<EyeEdges> edges = find_eye_edges(surface, points, eye, parts);
     if (!edges || !is_skin(edges->upper) || !is_skin(edges->lower)) continue;
     const double width = glm::distance(edges->upper.corners[0].position, edges->upper.corners[1].position);
     const double opening = edges->upper.middle.position.y - edges->lower.middle.position.y;

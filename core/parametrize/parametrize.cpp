@@ -127,7 +127,7 @@ void find_rolling_lids(const Model& model, const Surface& surface, const std::ve
        {*parse_feature_point("3.2"), *parse_feature_point("3.4")}}};
   std::vector<RigidMotion> lids(motion.size(), RigidMotion::none);
   for (std::size_t eye = 0; eye < 2; ++eye) {
-    const std::optional<EyeEdges> edges = find_eye_edges(surface, points, eye);
+    const std::optional<EyeEdges> edges = find_eye_edges(surface, points, eye, rig.parts);
     if (edges) rig.lids[eye] = find_lids(surface, *edges, rig, eye, modelled[eye] ? &*modelled[eye] : nullptr);
     if (!modelled[eye]) stop_joined_lids(model, surface, points, eye, rig);
     if (!rig.lids[eye]) continue;
@@ -214,6 +214,7 @@ Result<Rig> parametrize(const Model& model, const Surface& surface, const Featur
     weight_options.distance_graph = &*unfolded;
   }
   rig.parts = describe_parts(model, surface, points, options.roles_by_user);
+  weight_options.parts = rig.parts;
   OwnShapes own;
   if (options.weights == WeightMethod::fitted) {
     own = own_shapes(model, surface, on_surface);

@@ -45,7 +45,7 @@ Result<SurfaceWeights> surface_weights(const Surface& surface, std::span<const S
   std::vector<WeightTable<double>> of_part(surface.part_count());
   const Surface& graph = options.distance_graph != nullptr ? *options.distance_graph : surface;
   std::vector<MarginSite> margins;
-  if (are_shares(options.method)) margins = margin_sites(surface, points, options.modelled_eyes);
+  if (are_shares(options.method)) margins = margin_sites(surface, points, options.modelled_eyes, options.parts);
   SurfaceWeights result;
   const std::size_t sample_every =
       std::max(std::size_t{1}, surface.vertex_count() * options.shapes.size() / most_left_out);

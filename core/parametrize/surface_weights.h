@@ -25,7 +25,8 @@ struct WeightOptions {
   /// PartId. The others keep smooth weights.
   std::span<const Example> shapes = {};
   std::vector<bool> fitted_parts = {};
-  ModelledEyes modelled_eyes = {};  ///< for `smooth` and `fitted`
+  ModelledEyes modelled_eyes = {};  ///< for `smooth` and `fitted`, as the parts by PartId
+  std::span<const Part> parts = {};
 };
 
 struct SurfaceWeights {

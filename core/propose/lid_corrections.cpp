@@ -83,7 +83,7 @@ void correct_lid_edges(Draft& draft) {
 void correct_folds(Draft& draft) {
   const std::vector<SurfacePoint> points = draft.present_points();
   for (std::size_t eye = 0; eye < 2; ++eye) {
-    const auto edges = find_eye_edges(draft.head().surface, points, eye);
+    const auto edges = find_eye_edges(draft.head().surface, points, eye, draft.head().parts);
     if (!edges) continue;
     const EyeEdgeLines lines(*edges, draft.face().places());
     const mpeg4::Opening& lids = mpeg4::lids_of(eye);

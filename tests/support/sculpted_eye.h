@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -103,6 +105,42 @@ inline SculptedEye ball_behind_lids(bool is_welded, int columns = 60, int rows =
   head.surface = build_surface(model);
   for (std::size_t k = 0; k < marked.size(); ++k) head.points[k].vertex = head.surface.surface_of[marked[k]];
   head.parts.resize(head.surface.part_count(), head.parts.front());
+  return head;
+}
+
+/// `ball_behind_lids` with lids that are thick: from their edges an inside goes back into the ball. The outer corner is
+/// marked on that.
+inline SculptedEye ball_behind_thick_lids() {
+  SculptedEye head = ball_behind_lids(false);
+  Model& model = head.model;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> triangles_at;
+  for (const Triangle& t : model.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) ++triangles_at[std::minmax(t[k], t[(k + 1) % 3])];
+  }
+  const auto is_rim = [&](std::uint32_t v) { return std::hypot(model.positions[v].x, model.positions[v].y) < 1.1F; };
+  std::map<std::uint32_t, std::uint32_t> inside_of;
+  const auto inside = [&](std::uint32_t v) {
+    const auto [at, is_new] = inside_of.try_emplace(v, static_cast<std::uint32_t>(model.positions.size()));
+    if (is_new)
+      model.positions.push_back(glm::normalize(model.positions[v]) * static_cast<float>(0.9 * sculpted_radius));
+    return at->second;
+  };
+  for (const auto& [edge, count] : triangles_at) {
+    if (count != 1 || !is_rim(edge.first) || !is_rim(edge.second)) continue;
+    model.triangles.push_back({edge.first, edge.second, inside(edge.second)});
+    model.triangles.push_back({edge.first, inside(edge.second), inside(edge.first)});
+  }
+  std::vector<std::uint32_t> marked;
+  for (const SurfacePoint& p : head.points) marked.push_back(head.surface.file_vertex_of[p.vertex.value()].value());
+  head.surface = build_surface(model);
+  for (std::size_t k = 0; k < marked.size(); ++k) head.points[k].vertex = head.surface.surface_of[marked[k]];
+  const auto corner = std::max_element(inside_of.begin(), inside_of.end(), [&](const auto& a, const auto& b) {
+    return model.positions[a.second].x < model.positions[b.second].x;
+  });
+  for (SurfacePoint& p : head.points) {
+    if (p.id == parse_feature_point("3.7"))
+      p = {p.id, head.surface.surface_of[corner->second], model.positions[corner->second]};
+  }
   return head;
 }
 

@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "core/anatomy/lid_edge.h"
+#include "core/anatomy/opening_margins.h"
 #include "core/anatomy/point_lookup.h"
 #include "core/expressions/contact.h"
 #include "core/expressions/kernel_rig.h"
@@ -271,7 +272,10 @@ struct EyeBehindGrid {
       points.push_back({p.id, eye.surface.file_vertex_of[p.vertex.value()], glm::vec3(p.position)});
     std::vector<std::optional<PartRole>> roles(eye.surface.part_count());
     roles[eye.surface.part_of[eye.points.front().vertex.value()].value()] = PartRole::skin;
-    roles[eye.surface.part_of[eye.surface.surface_of.back().value()].value()] = PartRole::left_eye;
+    const auto back = std::min_element(eye.surface.positions.begin(), eye.surface.positions.end(),
+                                       [](const glm::dvec3& a, const glm::dvec3& b) { return a.z < b.z; });
+    const auto ball = static_cast<std::size_t>(back - eye.surface.positions.begin());
+    roles[eye.surface.part_of[ball].value()] = PartRole::left_eye;
     ParametrizeOptions options;
     options.weights = WeightMethod::smooth;
     options.roles_by_user = roles;
@@ -322,6 +326,29 @@ TEST(LidEdges, MeetAtTheEndOfTheOpening_WhereACornerIsMarkedOnOneLid) {
   const std::uint32_t corner = head.file_vertex(head.eye.point("3.7").vertex);
   EXPECT_LT(head.eye.model.positions[corner].y, -testing::sculpted_edge(x));
   EXPECT_GT(head.pose(head.rig, bench::frame_of({{21, 1024.0F}}))[corner].y, 0.9 * testing::sculpted_edge(x));
+}
+
+// The edges went along the inside of the lids to the corner: those that are seen did not meet in a blink.
+TEST(LidEdges, StayBeforeTheBall_WhereACornerIsMarkedInsideALid) {
+  const EyeBehindGrid head(testing::ball_behind_thick_lids());
+  const auto edges = find_eye_edges(head.eye.surface, head.eye.points, 0, head.rig.parts);
+  ASSERT_TRUE(edges.has_value());
+  const auto& lower = edges->lower.to_corner[LidEdge::outer];
+  const auto at_rest = [&](SurfaceVertexId v) { return head.eye.surface.positions[v.value()]; };
+  const std::vector<glm::vec3> shut = head.pose(head.rig, bench::frame_of({{19, 1024.0F}}));
+  std::size_t places = 0;
+  for (const MarginSite& site : margin_sites(head.eye.surface, head.eye.points, {}, head.rig.parts)) {
+    const glm::dvec3 place = at_rest(site.vertex);
+    if (std::abs(place.x) > 0.85) continue;  // at the corners
+    EXPECT_GT(glm::length(place), testing::sculpted_radius) << place.x << " " << place.y;
+    if (place.x < 0.0 || place.y < 0.0) continue;
+    ++places;
+    const SurfaceVertexId below = *std::min_element(lower.begin(), lower.end(), [&](auto a, auto b) {
+      return std::abs(at_rest(a).x - place.x) < std::abs(at_rest(b).x - place.x);
+    });
+    EXPECT_NEAR(shut[head.file_vertex(site.vertex)].y, at_rest(below).y, 0.03) << place.x;
+  }
+  EXPECT_GE(places, 7U);
 }
 
 TEST(CoarseLids, RiseFromTheBallThatTheirTrianglesWouldCut) {

@@ -67,6 +67,19 @@ TEST(ShortestPath, IsThatOfASearchOfTheWholePart) {
   }
 }
 
+TEST(ShortestPath, LeadsAroundVerticesThatCostMore_IfThatIsCheaper) {
+  const Surface surface = build_surface(testing::make_grid(4, 4));  // rows of five
+  const SurfaceVertexId from(10);
+  const SurfaceVertexId to(14);
+  const auto middle_row_costs = [&](double cost) {
+    return shortest_path(surface, from, to,
+                         [cost](SurfaceVertexId v) { return v.value() > 10 && v.value() < 14 ? cost : 1.0; });
+  };
+  EXPECT_EQ(middle_row_costs(1.0), shortest_path(surface, from, to));
+  EXPECT_EQ(middle_row_costs(1.2), shortest_path(surface, from, to));
+  for (const SurfaceVertexId v : middle_row_costs(4.0)) EXPECT_FALSE(v.value() > 10 && v.value() < 14) << v.value();
+}
+
 TEST(ShortestPath, ToItselfIsOneVertex) {
   const Surface surface = build_surface(testing::make_grid(2, 2));
   EXPECT_EQ(shortest_path(surface, SurfaceVertexId(4), SurfaceVertexId(4)), std::vector{SurfaceVertexId(4)});
