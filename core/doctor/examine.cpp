@@ -92,10 +92,10 @@ Report examine(const Model& model, const Surface& surface, const Rig& rig, Weigh
   std::erase_if(head.points_in_place, [&](const SurfacePoint& p) { return is_misplaced(head.misplaced, p.id); });
   head.modelled_eyes = find_modelled_eyes(surface, model.triangles, rig.parts, head.points_in_place);
   Report report;
-  for (const auto check :
-       {find_wrong_way_round, find_points_on_wrong_surface, find_points_off_lid_edge, find_points_on_modelled_eyes,
-        find_unit_faults, find_joined_rims, find_leaks, find_rims_not_neutral, find_points_out_of_order,
-        find_points_off_mirror, find_idle_parts, find_holes, find_wrong_density, find_missing_points, find_far_reach})
+  for (const auto check : {find_wrong_way_round, find_points_on_wrong_surface, find_points_off_lid_edge,
+                           find_points_on_modelled_eyes, find_unit_faults, find_joined_rims, find_leaks,
+                           find_rims_not_neutral, find_points_out_of_order, find_points_off_mirror, find_idle_parts,
+                           find_lids_in_eyes, find_holes, find_wrong_density, find_missing_points, find_far_reach})
     append(report, check(head));
   find_in_mesh(model, surface, rig.parts, mesh, slits_of(head.frame, rig.points), report);
   return errors_first(std::move(report));

@@ -32,6 +32,9 @@ std::vector<Finding> find_wrong_winding(const Model& model, const Surface& surfa
 /// Pieces without influence and role, a second skin, eyes that cannot rotate.
 std::vector<Finding> find_idle_parts(const Subject& head);
 
+/// Edges of lids that lie in the eyeball.
+std::vector<Finding> find_lids_in_eyes(const Subject& head);
+
 /// Holes in the skin near its points.
 std::vector<Finding> find_holes(const Subject& head);
 

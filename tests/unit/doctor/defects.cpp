@@ -5,6 +5,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/anatomy/part_roles.h"
+#include "core/anatomy/pivots.h"
 #include "core/tables/mpeg4.h"
 #include "tests/support/meshes.h"
 #include "tests/unit/doctor/spoil.h"
@@ -306,6 +308,18 @@ std::vector<Defect> make_defects() {
     copy_skin(h, glm::dmat3(1.0), unit(h) * glm::dvec3(0.0, 0.0, 0.03),
               [=](const glm::dvec3& at) { return at.y < top && at.y > bottom && at.z > back; });
     return Expected{{}, {}, {}, "\"plate\""};
+  });
+  add("eyeball_too_large", Code::lids_in_eye, [](Head& h) -> std::optional<Expected> {
+    const Surface surface = build_surface(h.model);
+    const std::vector<Part> parts = describe_parts(h.model, surface, h.points);
+    const auto ball = round_eyeball(surface, parts, PartRole::left_eye);
+    if (!ball) return std::nullopt;
+    for (std::size_t v = 0; v < h.model.positions.size(); ++v) {
+      if (parts[surface.part_of[surface.surface_of[v].value()].value()].role != PartRole::left_eye) continue;
+      glm::vec3& at = h.model.positions[v];
+      at = glm::vec3(ball->center + 1.35 * (glm::dvec3(at) - ball->center));
+    }
+    return Expected{ids({"3.1"}), {}, {}, "left eye lies in the eyeball"};
   });
   add("eyeballs_missing", Code::eye_cannot_turn, [](Head& h) {
     erase_parts(h, {PartRole::left_eye});

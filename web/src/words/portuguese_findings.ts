@@ -21,6 +21,8 @@ const many = (count: number, one: string, more: string): string => (count === 1 
 /** Points of the eyes have the group 3; the left ones are odd. */
 const isOfEye = (facts: FindingFacts): boolean => first(facts).startsWith('3.');
 const side = (facts: FindingFacts): string => (Number(first(facts).split('.')[1]) % 2 === 1 ? 'esquerdo' : 'direito');
+/** The lid of a point of its edge. */
+const lid = (facts: FindingFacts): string => (Number(first(facts).split('.')[1]) <= 2 ? 'superior' : 'inferior');
 /** The FAPs that turn the eye. */
 const gaze = (facts: FindingFacts): string => (side(facts) === 'esquerdo' ? '23, 25 e 27' : '24, 26 e 28');
 const unit = ({ points }: FindingFacts): string => `A unidade que ${list(points)} medem`;
@@ -156,6 +158,10 @@ export const portugueseFindings: Readonly<Record<string, Say>> = {
     `O globo ocular ${side(facts)} está soldado às pálpebras: não gira, os FAPs ${gaze(facts)} não têm efeito, e pálpebras que se fecham sobre ele deixam fendas finas onde têm vértices em comum`,
     'Separe os vértices que o globo ocular e as pálpebras têm em comum, ou exporte a cabeça sem unir vértices próximos; o globo ocular é então uma parte própria',
   ],
+  'lids-in-eye': (facts) => [
+    `A borda da pálpebra ${lid(facts)} do olho ${side(facts)} está dentro do globo ocular, a uma profundidade de ${percent(facts)} do raio: vê-se o globo através da pálpebra, também quando ela se fecha`,
+    'Mova o globo ocular para trás, diminua-o ou traga a pálpebra para a frente, até que toda a borda fique à frente dele',
+  ],
   'hole-near-points': (facts) => [`A pele tem um buraco ao lado de ${first(facts)}; a influência passa em volta dele, e o fundo aparece`, 'Feche o buraco no programa que fez o modelo'],
   'inside-out': () => [
     'A maior parte está do avesso: os seus triângulos olham para dentro, e vê-se o verso em vez da frente',
@@ -199,6 +205,7 @@ const measures: Readonly<Record<string, string>> = {
   "cosine between the surface's normal and the outward direction of the face": 'cosseno entre a normal da superfície e a direção para fora do rosto',
   "degrees between the face's axes and the model's": 'graus entre os eixos do rosto e os do modelo',
   "degrees between the face's plane of symmetry and the model's": 'graus entre o plano de simetria do rosto e o do modelo',
+  "depth of the edge as a fraction of the eyeball's radius": 'profundidade da borda como fração do raio do globo ocular',
   'distance from the face as a multiple of ES0': 'distância do rosto como múltiplo de ES0',
   'distance from the edge of the lids as a fraction of ES0': 'distância da borda das pálpebras como fração de ES0',
   'distance from the symmetric place as a fraction of ES0': 'distância do lugar simétrico como fração de ES0',
