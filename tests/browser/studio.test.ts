@@ -5,7 +5,7 @@ import { describe, expect, test } from 'vitest';
 import { faces, sampleHead, samplePoints } from './support/paths.ts';
 import { eventually } from './support/patience.ts';
 import { startServer } from './support/server.ts';
-import { StudioPage } from './support/studio_page.ts';
+import { StudioPage, type Inside } from './support/studio_page.ts';
 import { browser, server, useStudio } from './support/suite.ts';
 
 /** The region of mouth and chin in the front view, above the tools. */
@@ -351,5 +351,30 @@ describe('studio', () => {
     await viewer.pictureUnlike(before, mouth, 1);
     expect([...director.errors, ...viewer.errors]).toEqual([]);
     await Promise.all([director.close(), viewer.close()]);
+  });
+
+  test('Studio_StreamsWhoseFramesGoOn_StayTheSameItemsAndOptions', async () => {
+    const post = (path: string, body: object): Promise<Response> =>
+      fetch(`${server.url}/v1/streams${path}`, { method: 'POST', headers: { 'content-type': 'application/json' }, body: JSON.stringify(body) });
+    await post('', { name: 'fed' });
+    await post('', { name: 'quiet' });
+    const studio = await StudioPage.open(browser, `${server.url}/#sample/live`);
+    const { page } = studio;
+    const fed = page.locator('[data-stream="fed"]');
+    await fed.waitFor();
+    const parts = await page.evaluateHandle(() => [...document.querySelectorAll('[data-stream], option[value="fed"]')]);
+    expect(await parts.evaluate((elements) => elements.length)).toBeGreaterThanOrEqual(5); // two items, and a choice in four lists
+    const count = (): Promise<number | undefined> => page.evaluate(() => (window as unknown as Inside).semblante.live.streams.value?.find(({ id }) => id === 'fed')?.sequence);
+    const before = (await count())!;
+    await post('/fed/frames', { frames: [{ faps: { 3: 100 } }] });
+    await eventually('the page knows of another frame', async () => (await count())! > before);
+    expect(await parts.evaluate((elements) => elements.filter((element) => !element.isConnected).length)).toBe(0);
+    // What an item shows is drawn anew, the others stay.
+    const quiet = await page.locator('[data-stream="quiet"]').elementHandle();
+    await fed.getByRole('button', { name: 'Watch' }).click();
+    await fed.getByText('1 subscriber').waitFor();
+    expect(await quiet!.evaluate((element) => element.isConnected)).toBe(true);
+    expect(studio.errors).toEqual([]);
+    await studio.close();
   });
 });

@@ -451,6 +451,6 @@ export interface Inside {
     };
     driver: { source: { value: string }; byHand(): void };
     studio: { selected: { value: { id: string; state: string } | null } };
-    live: { following: { value: string | null }; stats: { dropped: number } };
+    live: { following: { value: string | null }; streams: { value: { id: string; sequence: number }[] | null }; stats: { dropped: number } };
   };
 }

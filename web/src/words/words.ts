@@ -19,6 +19,9 @@ export function t(text: Text, values: Readonly<Record<string, string | number>> 
   return (table?.[text] ?? text).replace(/\{(\w+)\}/g, (whole, name: string) => shown(values[name] ?? whole));
 }
 
+/** Made once: toLocaleString() would make one for each number of a list. */
+const number = new Intl.NumberFormat(language, { useGrouping: false, maximumFractionDigits: 20 });
+
 const fromRightToLeft = /[\u0590-\u08ff\ufb1d-\ufdff\ufe70-\ufefc]/;
 
 /**
@@ -26,7 +29,7 @@ const fromRightToLeft = /[\u0590-\u08ff\ufb1d-\ufdff\ufe70-\ufefc]/;
  * between the characters that isolate them, so that the words around them keep their order.
  */
 const shown = (value: string | number): string => {
-  if (typeof value === 'number') return value.toLocaleString(language, { useGrouping: false, maximumFractionDigits: 20 });
+  if (typeof value === 'number') return number.format(value);
   return fromRightToLeft.test(value) ? `\u2068${value}\u2069` : value;
 };
 

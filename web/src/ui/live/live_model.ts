@@ -13,6 +13,9 @@ const noStats: LiveStats = { framesPerSecond: 0, bytesPerSecond: 0, mediaTime: n
 /** ms that a speech waits for the sound of this page to begin: a browser may never allow it. */
 const soundPatience = 5000;
 
+/** Streams to choose from: their ids and what they are called. */
+export const streamOptions = (streams: readonly StreamInfo[]): [id: string, name: string][] => streams.map(({ id, title }) => [id, title || id]);
+
 /** All streams, the stream that this page subscribes to, and the stream that the sliders are published to. */
 export class LiveModel {
   /** null until the first response. */

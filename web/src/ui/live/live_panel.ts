@@ -2,10 +2,10 @@ import { titleOf } from '../../net/problem.ts';
 import type { Player } from '@client/index.ts';
 import type { StreamInfo } from '../../net/types.ts';
 import { ask } from '../shared/dialog.ts';
-import { h, replace, setText } from '../shared/dom.ts';
+import { h, keepChildren, replace, setOptions, setText } from '../shared/dom.ts';
 import { formatBytes, formatCount } from '../shared/format.ts';
 import { icon } from '../shared/icons.ts';
-import type { LiveModel } from './live_model.ts';
+import { type LiveModel, streamOptions } from './live_model.ts';
 import type { LiveSound } from './live_sound.ts';
 import { progressBar } from '../shared/progress_bar.ts';
 import { rove } from '../shared/roving.ts';
@@ -211,34 +211,31 @@ export class LivePanel {
       replace(this.list, h('li', {}, progressBar({ title: t('Loading streams'), progress: null })));
       return;
     }
-    replace(
-      this.list,
-      streams.length === 0
-        ? h('li', { class: 'empty' }, t('No streams yet. Create one with the plus button.'))
-        : streams.map((stream) => this.item(stream)),
-    );
-    const kept = this.target.value;
-    const own = streams.filter((stream) => stream.source !== 'demo');
-    replace(
-      this.target,
-      own.length === 0
-        ? h('option', { value: '' }, t('Create a new stream'))
-        : own.map((stream) => h('option', { value: stream.id }, stream.title || stream.id)),
-    );
-    if (own.some((stream) => stream.id === kept)) this.target.value = kept;
-    if (this.live.sending.value !== null) this.target.value = this.live.sending.value;
+    if (streams.length === 0) replace(this.list, h('li', { class: 'empty' }, t('No streams yet. Create one with the plus button.')));
+    else keepChildren(this.list, this.keptItems(streams));
+    const own = streamOptions(this.live.ownStreams);
+    const wanted = this.live.sending.value ?? this.target.value;
+    const chosen = own.some(([id]) => id === wanted) ? wanted : own[0]?.[0];
+    setOptions(this.target, own.length === 0 ? [['', t('Create a new stream')]] : own, chosen ?? '');
   }
 
-  private item(stream: StreamInfo): HTMLElement {
-    const on = this.live.following.value === stream.id;
-    const viewers = stream.subscribers === 1 ? t('1 subscriber') : t('{subscribers} subscribers', { subscribers: stream.subscribers });
-    const senders = stream.playing
-      ? t('plays {performance}', { performance: stream.playing.name || t('an unnamed performance') })
-      : stream.source === 'demo'
-        ? t('plays on the server')
-        : stream.publishers === 0
-          ? t('no publisher')
-          : stream.publishers === 1 ? t('1 publisher') : t('{publishers} publishers', { publishers: stream.publishers });
+  /** The items of the streams, by id, with what they show: another frame of a stream alone must not interrupt a click on one of hundreds. */
+  private items = new Map<string, { shows: string; element: HTMLElement }>();
+
+  private keptItems(streams: readonly StreamInfo[]): HTMLElement[] {
+    const before = this.items;
+    this.items = new Map();
+    for (const stream of streams) {
+      const words = itemWords(stream);
+      const on = this.live.following.value === stream.id;
+      const shows = JSON.stringify([stream.title, stream.is_public, words, on]);
+      const kept = before.get(stream.id);
+      this.items.set(stream.id, kept?.shows === shows ? kept : { shows, element: this.item(stream, words, on) });
+    }
+    return [...this.items.values()].map(({ element }) => element);
+  }
+
+  private item(stream: StreamInfo, words: string, on: boolean): HTMLElement {
     return h(
       'li',
       { class: `stream${on ? ' selected' : ''}`, 'data-stream': stream.id },
@@ -246,7 +243,7 @@ export class LivePanel {
         'div',
         { class: 'grow' },
         h('strong', {}, stream.title || stream.id),
-        h('span', { class: 'muted small' }, `${viewers} · ${senders}`),
+        h('span', { class: 'muted small' }, words),
       ),
       h(
         'button',
@@ -322,6 +319,19 @@ export class LivePanel {
     this.live.send(target);
     this.drawSending();
   }
+}
+
+/** Who watches a stream, and what feeds it. */
+function itemWords(stream: StreamInfo): string {
+  const viewers = stream.subscribers === 1 ? t('1 subscriber') : t('{subscribers} subscribers', { subscribers: stream.subscribers });
+  const senders = stream.playing
+    ? t('plays {performance}', { performance: stream.playing.name || t('an unnamed performance') })
+    : stream.source === 'demo'
+      ? t('plays on the server')
+      : stream.publishers === 0
+        ? t('no publisher')
+        : stream.publishers === 1 ? t('1 publisher') : t('{publishers} publishers', { publishers: stream.publishers });
+  return `${viewers} · ${senders}`;
 }
 
 /** A switch for something that is shown over the picture. */

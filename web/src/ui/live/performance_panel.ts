@@ -1,7 +1,7 @@
 import { kindOfClip } from '../../face/clip_file.ts';
 import { adviceFor, wordsOf } from '../../net/problem.ts';
 import { absentChoice } from '../documents/absent_choice.ts';
-import { h, redraw, replace, setText } from '../shared/dom.ts';
+import { h, redraw, replace, setOptions, setText } from '../shared/dom.ts';
 import { exampleSelect } from '../documents/example_select.ts';
 import { excerptBox } from '../documents/excerpt_box.ts';
 import { fapWarnings } from '../documents/fap_warnings.ts';
@@ -10,7 +10,7 @@ import { formatTime } from '../shared/format.ts';
 import { icon } from '../shared/icons.ts';
 import { canIdle, setIdle } from '../shared/idle.ts';
 import type { Toasts } from '../shared/toast.ts';
-import type { LiveModel } from './live_model.ts';
+import { type LiveModel, streamOptions } from './live_model.ts';
 import { capital } from '../shared/names.ts';
 import type { PerformanceModel, Refusal } from './performance_model.ts';
 import { serverWords, t } from '../../words/words.ts';
@@ -142,12 +142,7 @@ export class PerformancePanel {
   }
 
   private drawTargets(): void {
-    replace(
-      this.target,
-      h('option', { value: '' }, t('Create a new stream')),
-      this.model.ownStreams.map((stream) => h('option', { value: stream.id }, stream.title || stream.id)),
-    );
-    this.target.value = this.model.target.value;
+    setOptions(this.target, [['', t('Create a new stream')], ...streamOptions(this.model.ownStreams)], this.model.target.value);
   }
 
   private drawTransport(): void {

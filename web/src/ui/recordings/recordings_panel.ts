@@ -1,10 +1,10 @@
 import { wordsOf } from '../../net/problem.ts';
 import type { Recording } from '../../net/types.ts';
 import { ask } from '../shared/dialog.ts';
-import { h, redraw, replace, setText } from '../shared/dom.ts';
+import { h, redraw, replace, setOptions, setText } from '../shared/dom.ts';
 import { formatBytes, formatCount } from '../shared/format.ts';
 import { icon } from '../shared/icons.ts';
-import type { LiveModel } from '../live/live_model.ts';
+import { type LiveModel, streamOptions } from '../live/live_model.ts';
 import { capital } from '../shared/names.ts';
 import { recordingItem } from './recording_item.ts';
 import type { RecordingsModel } from './recordings_model.ts';
@@ -58,11 +58,9 @@ export class RecordingsPanel {
   }
 
   private drawStreams(): void {
-    const option = ({ id, title }: { id: string; title: string }): HTMLElement => h('option', { value: id }, title || id);
-    replace(this.source, (this.live.streams.value ?? []).map(option), h('option', { value: '' }, t('All streams, including deleted ones')));
-    this.source.value = this.model.stream.value;
-    replace(this.target, h('option', { value: '' }, t('Create a new stream')), this.live.ownStreams.map(option));
-    this.target.value = this.model.target.value;
+    const all = [...streamOptions(this.live.streams.value ?? []), ['', t('All streams, including deleted ones')]] as const;
+    setOptions(this.source, all, this.model.stream.value);
+    setOptions(this.target, [['', t('Create a new stream')], ...streamOptions(this.live.ownStreams)], this.model.target.value);
     const into = this.live.ownStreams.find(({ id }) => id === this.model.target.value);
     const name = into?.playing?.kind === 'recording' ? into.playing.name || t('A recording') : null;
     redraw(this.player, () =>

@@ -48,6 +48,17 @@ export function keepChildren(parent: Element, children: readonly Element[]): voi
   });
 }
 
+/**
+ * Gives a choice these values with their texts, and chooses `value`. The same ones as before stay: a new option closes the list that
+ * somebody has open, and there may be hundreds.
+ */
+export function setOptions(select: HTMLSelectElement, options: readonly (readonly [value: string, text: string])[], value: string): void {
+  const same = options.length === select.options.length &&
+    options.every(([wanted, text], i) => select.options[i]!.value === wanted && select.options[i]!.textContent === text);
+  if (!same) replace(select, options.map(([wanted, text]) => h('option', { value: wanted }, text)));
+  select.value = value;
+}
+
 /** Redraws a container and restores the focus to the control with the same `data-focus`. */
 export function redraw(container: Element, draw: () => void): void {
   const active = container.contains(document.activeElement) ? document.activeElement : null;

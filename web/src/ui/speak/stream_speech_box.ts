@@ -1,7 +1,7 @@
 import type { StreamSpeech } from '../../net/types.ts';
-import type { LiveModel } from '../live/live_model.ts';
+import { type LiveModel, streamOptions } from '../live/live_model.ts';
 import { ask } from '../shared/dialog.ts';
-import { h, redraw, replace } from '../shared/dom.ts';
+import { h, redraw, replace, setOptions } from '../shared/dom.ts';
 import { formatTime } from '../shared/format.ts';
 import { icon } from '../shared/icons.ts';
 import { capital } from '../shared/names.ts';
@@ -68,12 +68,7 @@ export class StreamSpeechBox {
 
   private drawStreams(): void {
     const { model, live } = this.parts;
-    replace(
-      this.target,
-      h('option', { value: '' }, t('Create a new stream')),
-      live.ownStreams.map(({ id, title }) => h('option', { value: id }, title || id)),
-    );
-    this.target.value = model.target.value;
+    setOptions(this.target, [['', t('Create a new stream')], ...streamOptions(live.ownStreams)], model.target.value);
   }
 
   private drawStatus(): void {
