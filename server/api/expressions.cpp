@@ -133,10 +133,10 @@ http::Response get_expressions(Context& context, http::Request& request) {
 http::Response get_expression(Context& context, http::Request& request) {
   const auto& id = request.params.at("expression");
   if (const auto built_in = find_built_in(id))
-    return http::apply_conditions(request,
-                                  full_set(context, request, *built_in, represent_built_in(*built_in), std::string()));
+    return http::apply_preconditions(
+        request, full_set(context, request, *built_in, represent_built_in(*built_in), std::string()));
   const auto set = own_set_of(context, request);
-  return http::apply_conditions(request, full_set(context, request, read_set(set), represent(set), set_etag(set)));
+  return http::apply_preconditions(request, full_set(context, request, read_set(set), represent(set), set_etag(set)));
 }
 
 http::Response put_expression(Context& context, http::Request& request) {

@@ -219,7 +219,7 @@ http::Response store_points(Context& context, http::Request& request, const stor
 }  // namespace
 
 http::Response get_feature_points(Context& context, http::Request& request) {
-  return http::apply_conditions(request, represent_points(context, model_of(context, request)));
+  return http::apply_preconditions(request, represent_points(context, model_of(context, request)));
 }
 
 http::Response put_feature_points(Context& context, http::Request& request) {

@@ -6,6 +6,7 @@
 
 #include "core/json/json_pointer.h"
 #include "core/types/rig.h"
+#include "protocol/hash/sha256.h"
 #include "server/api/common.h"
 #include "server/api/generated/body_members.h"
 #include "server/api/generated/handlers.h"
@@ -147,11 +148,14 @@ http::Response list_models(Context& context, http::Request& request) {
     model.parts = store::largest_parts(std::move(model.parts), max_listed_parts);
     page.models.push_back(represent(model, context.store.artefacts(model.id)));
   }
-  return json_response(200, page);
+  // A page of the studio asks every few seconds, and there may be megabytes of heads.
+  auto response = json_response(200, page);
+  response.headers["ETag"] = "\"sha256-" + sha256_hex(std::get<std::string>(response.body)) + "\"";
+  return http::apply_preconditions(request, std::move(response));
 }
 
 http::Response get_model(Context& context, http::Request& request) {
-  return http::apply_conditions(request, full_model(context, model_of(context, request)));
+  return http::apply_preconditions(request, full_model(context, model_of(context, request)));
 }
 
 http::Response patch_model(Context& context, http::Request& request) {

@@ -41,17 +41,17 @@ http::Response get_version(Context& context, http::Request&) {
 
 http::Response get_openapi(Context&, http::Request& request) {
   static const auto response = document(openapi_document(), "application/json", "no-cache");
-  return http::apply_conditions(request, response);
+  return http::apply_preconditions(request, response);
 }
 
 http::Response get_protocol_specification(Context&, http::Request& request) {
   static const auto response = document(protocol_specification(), "text/markdown; charset=utf-8", "no-cache");
-  return http::apply_conditions(request, response);
+  return http::apply_preconditions(request, response);
 }
 
 http::Response get_packed_tables(Context&, http::Request& request) {
   static const auto response = document(packed_tables_document(), "application/json", http::cache_forever);
-  return http::apply_conditions(request, response);
+  return http::apply_preconditions(request, response);
 }
 
 http::Response get_problem(Context&, http::Request& request) {

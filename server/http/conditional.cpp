@@ -70,23 +70,28 @@ bool etag_matches(std::string_view list, std::string_view etag, bool weak) {
   return false;
 }
 
-Response apply_conditions(const Request& request, Response response) {
+Response apply_preconditions(const Request& request, Response response) {
   const auto etag_field = response.headers.find("ETag");
   if (response.status != 200 || etag_field == response.headers.end()) return response;
-  const std::string etag = etag_field->second;
-
+  const std::string& etag = etag_field->second;
   if (const auto match = request.header("If-Match"); match && !etag_matches(*match, etag, false))
     return to_response(make_problem("precondition-failed", "the ETag of the resource is " + etag));
   if (const auto none = request.header("If-None-Match"); none && etag_matches(*none, etag, true))
     return not_modified(response);
+  return response;
+}
 
+Response apply_conditions(const Request& request, Response full) {
+  auto response = apply_preconditions(request, std::move(full));
+  const auto etag = response.headers.find("ETag");
+  if (response.status != 200 || etag == response.headers.end()) return response;
   const bool sized =
       std::holds_alternative<FileBody>(response.body) || std::holds_alternative<std::string>(response.body);
   if (!sized) return response;
   response.headers["Accept-Ranges"] = "bytes";
   const auto range = request.header("Range");
   const auto if_range = request.header("If-Range");
-  if (!range || request.method != "GET" || (if_range && *if_range != etag)) return response;
+  if (!range || request.method != "GET" || (if_range && *if_range != etag->second)) return response;
 
   const std::uint64_t size = response.body_size();
   ByteRange bytes{};

@@ -369,6 +369,28 @@ TEST_F(Routes, PagesOfModels_FollowNext) {
   EXPECT_EQ(count, json_of(request(port(), "GET", "/v1/models?limit=200"))["models"].size());
 }
 
+TEST_F(Routes, PageOfModels_IsSentAgain_OnlyIfItChanged) {
+  import_grid(port(), 4);
+  const auto page = request(port(), "GET", "/v1/models?limit=200");
+  const auto ask = [&] {
+    return request(port(), "GET", "/v1/models?limit=200", {}, {{"If-None-Match", page.headers.at("etag")}});
+  };
+  EXPECT_EQ(ask().status, 304);
+  EXPECT_EQ(ask().body, "");
+  import_grid(port(), 4);
+  EXPECT_EQ(ask().status, 200);
+}
+
+TEST_F(Routes, RangeOfADocument_IsIgnored) {
+  const std::string model = "/v1/models/" + import_grid(port(), 4);
+  for (const auto& target : {std::string("/openapi.json"), std::string("/v1/protocol/SPEC.md"), model,
+                             model + "/feature-points", std::string("/v1/expressions/joy")}) {
+    const auto answer = request(port(), "GET", target, {}, {{"Range", "bytes=2-5"}});
+    EXPECT_EQ(answer.status, 200) << target;
+    EXPECT_EQ(answer.headers.count("accept-ranges"), 0U) << target;
+  }
+}
+
 TEST_F(Routes, BadRequests_NameTheField) {
   const auto model = import_grid(port());
   const auto points = "/v1/models/" + model + "/feature-points";

@@ -2680,7 +2680,10 @@ export interface operations {
                 /** @description `next` of the page before */
                 after?: components["parameters"]["after"];
             };
-            header?: never;
+            header?: {
+                /** @description 304 if the resource has this tag */
+                "If-None-Match"?: components["parameters"]["ifNoneMatch"];
+            };
             path?: never;
             cookie?: never;
         };
@@ -2689,11 +2692,19 @@ export interface operations {
             /** @description One page */
             200: {
                 headers: {
+                    ETag?: string;
                     [name: string]: unknown;
                 };
                 content: {
                     "application/json": components["schemas"]["Models"];
                 };
+            };
+            /** @description It is as `If-None-Match` says */
+            304: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
             };
             400: components["responses"]["Problem"];
             503: components["responses"]["StorageUnavailable"];
