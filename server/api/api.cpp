@@ -218,6 +218,7 @@ std::variant<http::BodyPlan, http::Response> Api::plan(const http::Request& head
 http::Response Api::handle(http::Request& request) {
   const auto* route = route_of(request);
   if (route == nullptr) return http::static_file(context_.config.web_root, request);
+  if (auto refusal = refuse_ended_token(request)) return std::move(*refusal);
   try {
     refuse_foreign_resource(context_, request);
     auto response = route->handler(context_, request);

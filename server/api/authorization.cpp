@@ -242,6 +242,12 @@ std::optional<http::Response> refuse_access(const Security& security, streams::S
   return std::nullopt;
 }
 
+std::optional<http::Response> refuse_ended_token(const http::Request& request) {
+  const auto& ended = asking_of(request).rights.ended;
+  if (!ended || !*ended) return std::nullopt;
+  return unauthorized("the token was revoked or has expired", "invalid_token");
+}
+
 void refuse_foreign_resource(Context& context, const http::Request& request) {
   const auto& rights = asking_of(request).rights;
   if (const auto id = param(request, "job"); !id.empty() && rights.limited()) {

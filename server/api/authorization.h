@@ -43,6 +43,8 @@ std::optional<unsigned> wait_for_creation(const Security& security, const http::
 /// on a stream.
 std::optional<http::Response> refuse_access(const Security& security, streams::StreamHub& hub,
                                             const http::Request& head, access::Scope needed);
+/// The answer to a request whose token was revoked or has expired while the body came, which may take minutes.
+std::optional<http::Response> refuse_ended_token(const http::Request& request);
 /// Throws Refused when the token is for another stream or model than the job or recording in the path. On a worker.
 void refuse_foreign_resource(Context& context, const http::Request& request);
 /// The same for a recording that a body names.

@@ -9,6 +9,7 @@
 
 #include "tests/integration/cli/program.h"
 #include "tests/integration/server/model_flow.h"
+#include "tests/integration/server/open_request.h"
 
 namespace semblante::test {
 namespace {
@@ -159,6 +160,23 @@ TEST_F(Scopes, RevokedToken_ClosesItsStreams) {
   EXPECT_EQ(as(secret, "GET", "/v1/models").status, 401);
   EXPECT_TRUE(other.receive());
   EXPECT_EQ(other.close_code(), 0) << "the others stay";
+}
+
+TEST_F(Scopes, RevokedToken_EndsTheUploadThatItHasBegun) {
+  const auto made = json::parse(as(tokens_["admin"], "POST", "/v1/tokens", R"({"scope":"edit"})").body);
+  const auto file = grid_obj(4);
+  OpenRequest upload(port(),
+                     "POST /v1/models?filename=late.obj HTTP/1.1\r\nHost: localhost\r\nContent-Type: model/obj\r\n" +
+                         std::string("Authorization: Bearer ") + made["secret"].get<std::string>() +
+                         "\r\nContent-Length: " + std::to_string(file.size()) + "\r\n\r\n");
+  upload.send(file.substr(0, 10));
+  ASSERT_TRUE(semblante::testing::eventually([&] { return !std::filesystem::is_empty(data_.path() / "tmp"); }))
+      << "it was let in";
+  const std::string id = made["token"]["id"];
+  ASSERT_EQ(as(tokens_["admin"], "DELETE", "/v1/tokens/" + id).status, 204);
+  upload.send(file.substr(10));
+  EXPECT_EQ(upload.answer().status, 401);
+  EXPECT_EQ(as(tokens_["admin"], "GET", "/v1/models").body.find("late"), std::string::npos);
 }
 
 TEST_F(Scopes, TokenOfOneStream_OpensItAndTheFaceItShows) {
