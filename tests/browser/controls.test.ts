@@ -28,6 +28,17 @@ describe('controls', () => {
     await studio.close();
   });
 
+  test('ForcedColors_ABar_ShowsHowFullItIs', async () => {
+    const studio = await StudioPage.open(browser, `${server.url}/#sample/points`, { width: 1280, height: 800 });
+    const { page } = studio;
+    await studio.waitForStage('ready');
+    await page.emulateMedia({ forcedColors: 'active' });
+    const [fill, ground] = await page.locator('.meter .bar > span').evaluate((one) => [one, document.body].map((part) => getComputedStyle(part).backgroundColor));
+    expect(fill).not.toBe(ground);
+    expect(studio.errors).toEqual([]);
+    await studio.close();
+  });
+
   test('Keyboard_EachTab_HasFewStopsAndEachOfThemIsSeen', async () => {
     const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { width: 1280, height: 800 });
     const { page } = studio;
