@@ -128,12 +128,17 @@ void propose(Draft& draft, std::size_t id, const std::optional<glm::dvec3>& head
   propose_on_surface(draft, id, place);
 }
 
-std::string missing_of_quick_set(const FeaturePointSet& known) {
-  std::string missing;
+/// The points to place next: as many as proposals need, for all twenty are too many to read.
+std::string next_of_quick_set(const FeaturePointSet& known) {
+  std::string names;
+  std::size_t count = 0;
   for (const std::string_view name : quick_set) {
-    if (find_point(known, name) == nullptr) missing += (missing.empty() ? "" : ", ") + std::string(name);
+    if (count == least_known_points) break;
+    if (find_point(known, name) != nullptr) continue;
+    names += (names.empty() ? "" : ", ") + std::string(name);
+    ++count;
   }
-  return missing.empty() ? "" : "; missing from the quick set: " + missing;
+  return names.empty() ? "" : "; next of the quick set: " + names;
 }
 
 bool has_vertex(const FeaturePointSet& points, const Surface& surface, VertexId vertex) {
@@ -146,7 +151,7 @@ Error too_few(const FeaturePointSet& marked, const std::string& why_none_by_shap
   return Error{ErrorCode::missing, "/points",
                "proposals need at least " + std::to_string(least_known_points) + " placed points, but there are " +
                    std::to_string(marked.size()) + "; the shape of the face does not show them: " + why_none_by_shape +
-                   missing_of_quick_set(marked)};
+                   next_of_quick_set(marked)};
 }
 
 /// Minimum number of marked points and those found by eyeballs together. Less than of marked points alone: found ones
@@ -211,7 +216,7 @@ Result<Proposals> propose_feature_points(const Surface& surface, std::span<const
     return Error{
         ErrorCode::missing, "/points",
         "the placed points are on one line or at one place, so the orientation of the head cannot be determined" +
-            missing_of_quick_set(known)};
+            next_of_quick_set(known)};
   }
   frame->rotation = to_quarter_turns(frame->rotation);
   Draft draft({surface, parts, triangles, known, *found}, *frame, references);

@@ -111,8 +111,8 @@ const textsOf = (code: string, from: number): string[] =>
 const filledIn: Readonly<Record<string, readonly string[]>> = {
   'core/import/obj_reader.cpp: what': ['vertex', 'vertices'],
   'core/import/stl_reader.cpp: what': ['vertices'],
-  'core/propose/propose.cpp: missing_of_quick_set(known)': [''],
-  'core/propose/propose.cpp: missing_of_quick_set(marked)': [''],
+  'core/propose/propose.cpp: next_of_quick_set(known)': [''],
+  'core/propose/propose.cpp: next_of_quick_set(marked)': [''],
   'core/propose/propose.cpp: why_none_by_shape': ['only 3 are seen'],
   'core/speech/xml_tag.cpp: what': ['the tag <x>', '<x>'],
   'protocol/cpp/performance_read.cpp: what': ['viseme'],

@@ -30,6 +30,7 @@ export const formerSentences: Sentences = {
   'the zip has no model but {name}: send the model that is in it': 'o zip não tem modelo, mas {name}: envie o modelo que há nele',
   'refers to {name}, which is another file; send a GLB, or a zip with all files':
     'cita {name}, que é outro arquivo; envie um GLB, ou um zip com todos os arquivos',
+  '{fault}; missing from the quick set: {points}': '{fault}; faltam do conjunto rápido: {points}',
   'vertex colours are omitted: the face has the colours of its materials': 'as cores de vértices ficaram de fora: o rosto tem as cores dos seus materiais',
 };
 

@@ -28,7 +28,7 @@ export const portugueseWork: Sentences = {
   'the bytes of the model cannot be read': 'os bytes do modelo não podem ser lidos',
 
   // Points that are not proposed.
-  '{fault}; missing from the quick set: {points}': '{fault}; faltam do conjunto rápido: {points}',
+  '{fault}; next of the quick set: {points}': '{fault}; próximos do conjunto rápido: {points}',
   'no reference head has this point': 'nenhuma cabeça de referência tem este ponto',
   'the thickness of the hair cannot be derived from the face': 'a espessura do cabelo não pode ser deduzida do rosto',
   'the model has no {role}': 'o modelo não tem {role}',
