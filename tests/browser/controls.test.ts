@@ -81,6 +81,19 @@ describe('controls', () => {
     await studio.close();
   });
 
+  test('Facts_OfAStream_OnTheNarrowestPhoneWithLettersOf24Pixels_AreNotCutOff', async () => {
+    await fetch(`${server.url}/v1/streams`, { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: '{"name":"facts"}' });
+    // 320 pixels at such letters are as wide as 213 at the usual size.
+    const studio = await StudioPage.open(browser, `${server.url}/#sample/live?stream=facts`, { width: 213, height: 467 });
+    const { page } = studio;
+    const facts = page.locator('.facts dd');
+    await facts.last().filter({ hasText: 'Default of the head' }).waitFor();
+    expect(await facts.evaluateAll((all) => all.filter((one) => one.scrollWidth > one.clientWidth).map((one) => one.textContent))).toEqual([]);
+    expect(await fitsThePage.faults(studio)).toEqual([]);
+    expect(studio.errors).toEqual([]);
+    await studio.close();
+  });
+
   test('Page_OfAPhoneWithLettersOf24Pixels_CutsNoWordsOff', async () => {
     // Larger letters do what a zoom does: 390 pixels are as wide as 260 are at the usual size.
     const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { width: 260, height: 563 });
