@@ -60,6 +60,29 @@ Response moved_into_folder(const std::string& path) {
   return response;
 }
 
+/// What is served at a path: a file, or a folder whose page has an address of its own.
+struct Found {
+  std::filesystem::path file;
+  std::optional<struct stat> info;  ///< of the file; nullopt: it is a folder with a page
+};
+
+std::optional<Found> find_file(const std::filesystem::path& root, const std::string& path) {
+  if (path.find("/.") != std::string::npos || path.find('\\') != std::string::npos) return std::nullopt;
+  std::error_code error;
+  const auto file = std::filesystem::canonical(root / path.substr(1), error);
+  if (error || !lies_within(root, file)) return std::nullopt;
+  auto info = regular_file(file);
+  if (!info && !regular_file(file / "index.html")) return std::nullopt;
+  return Found{file, info};
+}
+
+/// The path of the file that is served at an address.
+std::string file_path(const std::string& address) {
+  std::string path = shows_stream(address) ? "/view/" : address;
+  if (path.back() == '/') path += "index.html";
+  return path;
+}
+
 }  // namespace
 
 bool lies_within(const std::filesystem::path& root, const std::filesystem::path& file) {
@@ -73,19 +96,15 @@ bool lies_within(const std::filesystem::path& root, const std::filesystem::path&
 }
 
 Response static_file(const std::filesystem::path& root, const Request& request) {
-  const auto absent = [&] { return to_response(make_problem("not-found", "nothing is served at " + request.path)); };
-  std::string path = shows_stream(request.path) ? "/view/" : request.path;
-  if (path.back() == '/') path += "index.html";
-  if (path.find("/.") != std::string::npos || path.find('\\') != std::string::npos) return absent();
-
-  std::error_code error;
-  const auto file = std::filesystem::canonical(root / path.substr(1), error);
-  if (error || !lies_within(root, file)) return absent();
-  auto info = regular_file(file);
-  if (!info) return regular_file(file / "index.html") ? moved_into_folder(path) : absent();
+  const auto path = file_path(request.path);
+  const auto found = find_file(root, path);
+  if (!found) return to_response(make_problem("not-found", "nothing is served at " + request.path));
+  if (!found->info) return moved_into_folder(path);
 
   Response response;
+  const auto& file = found->file;
   auto sent = file;
+  auto info = found->info;
   std::string_view coding;
   for (const auto& [name, extension] : codings) {
     const auto packed = std::filesystem::path(file) += extension;
@@ -109,10 +128,7 @@ Response static_file(const std::filesystem::path& root, const Request& request) 
 }
 
 bool has_static_file(const std::filesystem::path& root, const std::string& path) {
-  Request request;
-  request.method = "GET";
-  request.path = path;
-  return static_file(root, request).status != 404;
+  return find_file(root, file_path(path)).has_value();
 }
 
 }  // namespace semblante::http
