@@ -135,16 +135,17 @@ Similarity frame_between(const Eyeballs& eyes) {
   return frame;
 }
 
-/// The nose and the mouth, which every face has.
-void find_nose_and_mouth(Found& found, const FaceFront& front) {
+/// The nose and the mouth, which every face has. Whether the mouth is seen.
+bool find_nose_and_mouth(Found& found, const FaceFront& front) {
   const auto mouth = find_seen_mouth(front);
   if (const auto nose = find_nose(front, mouth ? mouth->middle.upper.place.y + above_mouth : nose_bottom))
     found.add("9.3", *nose, noise_of_nose);
-  if (!mouth) return;
+  if (!mouth) return false;
   found.add("2.2", mouth->middle.upper, noise_of_middle);
   found.add("2.3", mouth->middle.lower, noise_of_middle);
   found.add("2.4", mouth->left.upper, noise_of_corner);
   found.add("2.5", mouth->right.upper, noise_of_corner);
+  return true;
 }
 
 /// The eyes where their balls are seen between the lids.
@@ -196,6 +197,17 @@ void find_pupils_by_likeness(Found& found, const FaceFront& front, const Similar
   }
 }
 
+/// Of lips that are joined: the outer ones, which lie on open skin.
+void find_lips_by_likeness(Found& found, const FaceFront& front, std::span<const ReferenceHead> references) {
+  const auto mean = mean_of(references);
+  for (const std::string_view name : {"8.1", "8.2", "8.3", "8.4"}) {
+    const auto& place = mean[parse_feature_point(name)->value()];
+    if (!place) continue;
+    if (const auto spot = front.spot(front.column(place->x + FaceFront::middle), *place))
+      found.add(name, *spot, noise_of_likeness);
+  }
+}
+
 }  // namespace
 
 Result<std::vector<FoundPoint>> find_points_by_eyeballs(const Surface& surface, std::span<const Part> described,
@@ -222,7 +234,7 @@ std::vector<FoundPoint> find_points_by_likeness(const Surface& surface, std::spa
   const FaceFront front(surface, parts, triangles, face->frame);
   Found found(surface);
   find_pupils_by_likeness(found, front, face->frame);
-  find_nose_and_mouth(found, front);
+  if (!find_nose_and_mouth(found, front)) find_lips_by_likeness(found, front, references);
   return found.take();
 }
 
