@@ -48,6 +48,15 @@ static float widest_closure(float slit) {
   return clamped(0.5F - WIDEST_RIM / slit, -WIDEST, 0.0F);
 }
 
+/* How far the points of the lids of an open eye close it, each for itself. Returns the least closure. */
+static float closure_by_points(int eye, const semblante_pose* pose, float closure[2]) {
+  const semblante_lids* const lids = &pose->lids[eye];
+  const float widest = widest_closure(lids->slit);
+  closure[0] = clamped(-pose->fp[SEMBLANTE_UPPER_LID(eye) * 3 + 1] / lids->opening, widest, 1.0F);
+  closure[1] = clamped(pose->fp[SEMBLANTE_LOWER_LID(eye) * 3 + 1] / lids->opening, widest, 1.0F);
+  return widest;
+}
+
 void semblante_stop_lids(int eye, float pitch, semblante_pose* pose) {
   const semblante_lids* const lids = &pose->lids[eye];
   const float opening = lids->opening;
@@ -61,29 +70,27 @@ void semblante_stop_lids(int eye, float pitch, semblante_pose* pose) {
   if (!(lids->slit > 0.0F)) {
     return;
   }
-  const float widest = widest_closure(lids->slit);
-  const float upper = clamped(-*upper_y / opening, widest, 1.0F);
-  const float lower = clamped(*lower_y / opening, widest, 1.0F);
+  float closure[2];
+  const float widest = closure_by_points(eye, pose, closure);
   /* A lid follows the gaze as far as the eye is open. */
-  const float open = clamped(1.0F - upper - lower, 0.0F, 1.0F);
+  const float open = clamped(1.0F - closure[0] - closure[1], 0.0F, 1.0F);
   const float gaze = open * clamped(pitch, -STEEPEST, STEEPEST) / lids->slit;
-  *upper_y += opening * (upper - clamped(upper + lids->gaze_share[0] * gaze, widest, 1.0F));
-  *lower_y += opening * (clamped(lower - lids->gaze_share[1] * gaze, widest, 1.0F) - lower);
+  *upper_y += opening * (closure[0] - clamped(closure[0] + lids->gaze_share[0] * gaze, widest, 1.0F));
+  *lower_y += opening * (clamped(closure[1] - lids->gaze_share[1] * gaze, widest, 1.0F) - closure[1]);
 }
 
 void semblante_close_lids(int eye, semblante_pose* pose) {
-  const float opening = pose->lids[eye].opening;
   float* const closure = pose->lid_closure[eye];
   closure[0] = closure[1] = 0.0F;
-  if (!(opening > 0.0F)) {
+  if (!(pose->lids[eye].opening > 0.0F)) {
     return;
   }
-  const float widest = widest_closure(pose->lids[eye].slit);
-  const float upper = clamped(-pose->fp[SEMBLANTE_UPPER_LID(eye) * 3 + 1] / opening, widest, 1.0F);
-  const float lower = clamped(pose->fp[SEMBLANTE_LOWER_LID(eye) * 3 + 1] / opening, widest, 1.0F);
-  const float both = upper + lower; /* lids meet and do not cross */
-  closure[0] = both > 1.0F ? upper / both : upper;
-  closure[1] = both > 1.0F ? lower / both : lower;
+  closure_by_points(eye, pose, closure);
+  const float both = closure[0] + closure[1]; /* lids meet and do not cross */
+  if (both > 1.0F) {
+    closure[0] /= both;
+    closure[1] /= both;
+  }
 }
 
 float semblante_clearance_at_rest(const semblante_lids* lids, const float pivot[3], const float rest[3]) {
