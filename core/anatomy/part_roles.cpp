@@ -90,6 +90,14 @@ bool has_both_eyes(const PartShape& shape, const FeaturePointSet& points) {
 
 }  // namespace
 
+std::optional<PartId> largest_part(std::span<const Part> parts, PartRole role) {
+  std::optional<std::uint32_t> largest;
+  for (std::uint32_t p = 0; p < parts.size(); ++p) {
+    if (parts[p].role == role && (!largest || parts[p].vertex_count > parts[*largest].vertex_count)) largest = p;
+  }
+  return largest ? std::optional(PartId(*largest)) : std::nullopt;
+}
+
 bool has_part(std::span<const Part> parts, PartRole role) {
   return std::any_of(parts.begin(), parts.end(), [role](const Part& part) { return part.role == role; });
 }

@@ -22,6 +22,9 @@ std::vector<Part> describe_parts(const Model& model, const Surface& surface, con
 /// Whether a part has this role.
 bool has_part(std::span<const Part> parts, PartRole role);
 
+/// The part with this role that has the most vertices; empty without one.
+std::optional<PartId> largest_part(std::span<const Part> parts, PartRole role);
+
 /// The role of an eyeball (0 left, 1 right).
 constexpr PartRole eyeball_role(std::size_t eye) { return eye == 0 ? PartRole::left_eye : PartRole::right_eye; }
 

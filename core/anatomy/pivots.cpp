@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/anatomy/part_roles.h"
 #include "core/anatomy/point_lookup.h"
 #include "core/geometry/sphere_fit.h"
 #include "core/tables/openings.h"
@@ -28,15 +29,6 @@ std::optional<Pupils> find_pupils(const FeaturePointSet& points) {
   const FeaturePoint* const right = find_point(points, "3.6");
   if (left == nullptr || right == nullptr) return std::nullopt;
   return Pupils{glm::dvec3(left->position), glm::dvec3(right->position)};
-}
-
-std::optional<std::uint32_t> largest_part(std::span<const Part> parts, PartRole role) {
-  std::optional<std::uint32_t> best;
-  for (std::uint32_t p = 0; p < parts.size(); ++p) {
-    if (parts[p].role != role) continue;
-    if (!best || parts[p].vertex_count > parts[*best].vertex_count) best = p;
-  }
-  return best;
 }
 
 glm::dvec3 box_center(const Part& part) { return 0.5 * (glm::dvec3(part.box_min) + glm::dvec3(part.box_max)); }
@@ -76,12 +68,14 @@ bool is_flat(const Part& part) { return part.box_max.z - part.box_min.z < 0.4F *
 }  // namespace
 
 std::optional<Sphere> round_eyeball(const Surface& surface, std::span<const Part> parts, PartRole role) {
-  const std::optional<std::uint32_t> part = largest_part(parts, role);
-  if (!part || is_flat(parts[*part])) return std::nullopt;
-  const std::optional<Sphere> ball = fit_ball(surface, PartId(*part));
-  const double width = static_cast<double>(parts[*part].box_max.x) - static_cast<double>(parts[*part].box_min.x);
+  const std::optional<PartId> id = largest_part(parts, role);
+  if (!id) return std::nullopt;
+  const Part& part = parts[id->value()];
+  if (is_flat(part)) return std::nullopt;
+  const std::optional<Sphere> ball = fit_ball(surface, *id);
+  const double width = static_cast<double>(part.box_max.x) - static_cast<double>(part.box_min.x);
   const bool is_round =
-      ball && ball->rms_error < 0.1 * ball->radius && glm::distance(ball->center, box_center(parts[*part])) < width;
+      ball && ball->rms_error < 0.1 * ball->radius && glm::distance(ball->center, box_center(part)) < width;
   return is_round ? ball : std::nullopt;
 }
 
@@ -91,14 +85,15 @@ glm::vec3 eye_pivot(const Surface& surface, std::span<const Part> parts, PartRol
   const double separation = pupils ? glm::distance(pupils->left, pupils->right) : 0.0;
   const double behind = eye_center_behind_pupil * separation;
 
-  const std::optional<std::uint32_t> part = largest_part(parts, role);
-  if (!part) {
+  const std::optional<PartId> id = largest_part(parts, role);
+  if (!id) {
     if (pupil == nullptr) return glm::vec3(0.0F);
     return pupil->position - glm::vec3(0.0F, 0.0F, pupils ? depth_of_center(*pupil, separation, role, points) : 0.0);
   }
 
-  const glm::dvec3 center = box_center(parts[*part]);
-  if (is_flat(parts[*part])) return glm::vec3(center - glm::dvec3(0.0, 0.0, behind));
+  const Part& part = parts[id->value()];
+  const glm::dvec3 center = box_center(part);
+  if (is_flat(part)) return glm::vec3(center - glm::dvec3(0.0, 0.0, behind));
   const std::optional<Sphere> ball = round_eyeball(surface, parts, role);
   return glm::vec3(ball ? ball->center : center);
 }
@@ -111,12 +106,12 @@ glm::vec3 head_pivot(std::span<const Part> parts, const FeaturePointSet& points,
     const glm::dvec3 middle = 0.5 * (pupils->left + pupils->right);
     return glm::vec3(middle - glm::dvec3(0.0, spine_below_eyes * es, spine_behind_eyes * es));
   }
-  const std::optional<std::uint32_t> skin = largest_part(parts, PartRole::skin);
+  const std::optional<PartId> skin = largest_part(parts, PartRole::skin);
   if (!skin) return glm::vec3(0.0F);
   // For a head cut at the neck: a little below its middle and behind it.
   constexpr glm::dvec3 place(0.5, 0.45, 0.4);
-  const glm::dvec3 low(parts[*skin].box_min);
-  const glm::dvec3 high(parts[*skin].box_max);
+  const glm::dvec3 low(parts[skin->value()].box_min);
+  const glm::dvec3 high(parts[skin->value()].box_max);
   return glm::vec3(low + place * (high - low));
 }
 

@@ -12,6 +12,7 @@
 
 #include "core/anatomy/face_search.h"
 #include "core/anatomy/front_relief.h"
+#include "core/anatomy/part_roles.h"
 #include "core/anatomy/role_by_name.h"
 #include "core/propose/face_front.h"
 #include "core/propose/face_surface.h"

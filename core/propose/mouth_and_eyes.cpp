@@ -7,6 +7,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/anatomy/part_roles.h"
+
 namespace semblante {
 namespace {
 
@@ -16,14 +18,6 @@ constexpr double believable = 0.2;  ///< maximum distance from the pupil expecte
 constexpr double cornea = 0.12;     ///< radius of the cornea seen from the front
 
 }  // namespace
-
-std::optional<PartId> largest_part(std::span<const Part> parts, PartRole role) {
-  std::optional<std::uint32_t> largest;
-  for (std::uint32_t p = 0; p < parts.size(); ++p) {
-    if (parts[p].role == role && (!largest || parts[p].vertex_count > parts[*largest].vertex_count)) largest = p;
-  }
-  return largest ? std::optional(PartId(*largest)) : std::nullopt;
-}
 
 std::optional<Sphere> find_eyeball(const FaceSurface& face, std::span<const Part> parts, PartRole eye) {
   const std::optional<PartId> largest = largest_part(parts, eye);

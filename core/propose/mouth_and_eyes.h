@@ -13,9 +13,6 @@
 
 namespace semblante {
 
-/// The part with this role that has the most vertices; empty without one.
-std::optional<PartId> largest_part(std::span<const Part> parts, PartRole role);
-
 /// The sphere of an eyeball, fitted to the largest part with the role; empty without such a part, or if it is not
 /// round.
 std::optional<Sphere> find_eyeball(const FaceSurface& face, std::span<const Part> parts, PartRole eye);
