@@ -46,14 +46,14 @@ constexpr double last_fit_step = 0.004;
 
 /// A place of the front of a face, in the frame of the reference heads.
 using FacePlace = glm::dvec3;
+using MeanPlaces = std::array<std::optional<FacePlace>, feature_point_count>;
 
 /// The mean places of the points of the lips, the eyes, the brows, the cheeks and the outside of the nose: not of the
 /// jaw, which ends where the neck is seen.
-std::vector<FacePlace> places_of_front(std::span<const ReferenceHead> references) {
+std::vector<FacePlace> places_of_front(const MeanPlaces& mean) {
   constexpr std::array<std::string_view, 6> of_front = {"2.", "3.", "4.", "5.", "8.", "9."};
   constexpr std::array<std::string_view, 9> not_seen = {"2.1", "2.11", "2.12", "2.13", "2.14",
                                                         "9.8", "9.9",  "9.10", "9.11"};
-  const auto mean = mean_of(references);
   std::vector<FacePlace> places;
   for (std::size_t id = 0; id < mean.size(); ++id) {
     const std::string_view name = mpeg4::feature_points[id].id;
@@ -77,16 +77,29 @@ void subtract_share(std::span<double> values, std::span<const double> unit) {
   for (std::size_t i = 0; i < values.size(); ++i) values[i] -= share * unit[i];
 }
 
+/// The upper median. Changes the order of the values.
+double take_median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 struct Candidate {
-  double x = 0.0, y = 0.0, es0 = 0.0;  ///< the middle between the eyes
+  double x = 0.0, y = 0.0;  ///< of the middle between the eyes
+  double es0 = 0.0;
   double likeness = -1.0;
+
+  /// What is seen at a place of such a face.
+  [[nodiscard]] double depth(const FrontRelief::Level& level, const FacePlace& place) const {
+    return level.at(x + place.x * es0, y + place.y * es0);
+  }
 };
 
 class FaceSearch {
  public:
-  FaceSearch(const FrontRelief& relief, std::span<const ReferenceHead> references)
-      : relief_(relief), places_(places_of_front(references)) {
-    const auto mean = mean_of(references);
+  FaceSearch(const FrontRelief& relief, std::span<const ReferenceHead> references) : relief_(relief) {
+    const MeanPlaces mean = mean_of(references);
+    places_ = places_of_front(mean);
     const auto place = [&](std::string_view name) {
       return mean[parse_feature_point(name)->value()].value_or(FacePlace(0.0));
     };
@@ -119,7 +132,7 @@ class FaceSearch {
     seen_.clear();
     which_.clear();
     for (std::size_t k = 0; k < places_.size(); ++k) {
-      const double z = level.at(c.x + places_[k].x * c.es0, c.y + places_[k].y * c.es0);
+      const double z = c.depth(level, places_[k]);
       if (std::isnan(z)) continue;
       seen_.push_back(z / c.es0);
       which_.push_back(k);
@@ -155,9 +168,8 @@ class FaceSearch {
     if (static_cast<double>(seen_.size()) < least_seen * static_cast<double>(places_.size())) return -1.0;
     prepare_places();
     sorted_ = seen_;
-    const auto middle = sorted_.begin() + static_cast<std::ptrdiff_t>(sorted_.size() / 2);
-    std::nth_element(sorted_.begin(), middle, sorted_.end());
-    for (double& z : seen_) z = std::clamp(z - *middle, -deepest, deepest);
+    const double middle = take_median(sorted_);
+    for (double& z : seen_) z = std::clamp(z - middle, -deepest, deepest);
     for (const std::vector<double>& slope : slopes_) subtract_share(seen_, slope);
     const double together = dot(seen_, expected_);
     const double strength = together / dot(expected_, expected_);
@@ -166,16 +178,15 @@ class FaceSearch {
   }
 
   [[nodiscard]] bool has_nose(const FrontRelief::Level& level, const Candidate& c) const {
-    const auto depth = [&](const FacePlace& place) { return level.at(c.x + place.x * c.es0, c.y + place.y * c.es0); };
     double sum = 0.0;
     int seen = 0;
     for (const FacePlace& place : around_nose_) {
-      const double z = depth(place);
+      const double z = c.depth(level, place);
       if (std::isnan(z)) continue;
       sum += z;
       ++seen;
     }
-    return seen > 0 && depth(nose_) - sum / seen > least_nose * c.es0;
+    return seen > 0 && c.depth(level, nose_) - sum / seen > least_nose * c.es0;
   }
 
   /// The best places of all sizes, in no order.
@@ -260,9 +271,7 @@ class FaceSearch {
     look(relief_.with_step(knots_of_fit * c.es0), c);
     std::vector<double> off(seen_.size());
     for (std::size_t i = 0; i < off.size(); ++i) off[i] = seen_[i] - places_[which_[i]].z;
-    const auto middle = off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2);
-    std::nth_element(off.begin(), middle, off.end());
-    return *middle * c.es0;
+    return take_median(off) * c.es0;
   }
 
   const FrontRelief& relief_;

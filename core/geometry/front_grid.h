@@ -10,7 +10,7 @@
 
 namespace semblante {
 
-/// Knots across x and y, on which a surface is seen straight from the front: row by row, from the lowest and rightmost.
+/// Knots across x and y, on which a surface is seen straight from the front: row by row, from the least y and x.
 struct FrontGrid {
   glm::dvec2 origin{0.0};  ///< of the first knot
   double step = 0.0;

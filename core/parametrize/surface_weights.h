@@ -25,8 +25,9 @@ struct WeightOptions {
   /// PartId. The others keep smooth weights.
   std::span<const Example> shapes = {};
   std::vector<bool> fitted_parts = {};
-  ModelledEyes modelled_eyes = {};  ///< for `smooth` and `fitted`, as the parts by PartId
-  std::span<const Part> parts = {};
+  // For `smooth` and `fitted`.
+  ModelledEyes modelled_eyes = {};
+  std::span<const Part> parts = {};  ///< by PartId
 };
 
 struct SurfaceWeights {
