@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <string_view>
 #include <vector>
 
@@ -16,6 +17,14 @@ namespace {
 /// Of 44 files of others (heads, bodies, animals, robots), what was seen to be a face has 0.815 to 0.95, all else at
 /// most 0.80.
 constexpr double least_likeness = 0.81;
+/// Of a face that is looked for in many positions: on the same files, all else has at most 0.83, a monkey 0.85.
+constexpr double least_likeness_leaning = 0.86;
+/// Between the positions in which a leaning face is looked for, radians: a face is seen up to half of it aside.
+constexpr double roll_step = std::numbers::pi / 18.0;
+constexpr int rolls = 6;  ///< to either side
+/// The sine of the angle by which a fit may lean from where it started: things without a face have more likeness if
+/// they may lean as they like.
+constexpr double most_fitted_lean = 0.14;
 /// By how many times the relief may be stronger or weaker than that of people.
 constexpr double strongest = 2.0;
 constexpr double weakest = 0.5;
@@ -87,11 +96,31 @@ double take_median(std::vector<double>& values) {
 struct Candidate {
   double x = 0.0, y = 0.0;  ///< of the middle between the eyes
   double es0 = 0.0;
+  glm::dvec2 left{1.0, 0.0};  ///< the direction of the face's left, a unit vector
   double likeness = -1.0;
 
   /// What is seen at a place of such a face.
   [[nodiscard]] double depth(const FrontRelief::Level& level, const FacePlace& place) const {
-    return level.at(x + place.x * es0, y + place.y * es0);
+    return level.at(x + es0 * (place.x * left.x - place.y * left.y), y + es0 * (place.x * left.y + place.y * left.x));
+  }
+  /// `way` is in ES0.
+  [[nodiscard]] Candidate moved_by(const glm::dvec2& way) const {
+    Candidate moved = *this;
+    moved.x += way.x * es0;
+    moved.y += way.y * es0;
+    return moved;
+  }
+  [[nodiscard]] Candidate grown_by(double share) const {
+    Candidate grown = *this;
+    grown.es0 *= 1.0 + share;
+    return grown;
+  }
+  /// About the line of sight, in radians.
+  [[nodiscard]] Candidate turned_by(double roll) const {
+    Candidate turned = *this;
+    turned.left = {left.x * std::cos(roll) - left.y * std::sin(roll),
+                   left.y * std::cos(roll) + left.x * std::sin(roll)};
+    return turned;
   }
 };
 
@@ -108,23 +137,60 @@ class FaceSearch {
   }
 
   [[nodiscard]] std::optional<SeenFace> run() {
-    const Candidate best = find_best();
-    if (best.likeness < least_likeness) return std::nullopt;
-    SeenFace face;
-    face.frame.scale = 1.0 / best.es0;
-    face.frame.from = {best.x, best.y, depth_of(best)};
-    face.likeness = best.likeness;
-    return face;
+    const std::array upright = {0.0};
+    return find(upright, least_likeness);
+  }
+
+  [[nodiscard]] std::optional<SeenFace> run_leaning() {
+    std::vector<double> leaning;
+    for (int n = 1; n <= rolls; ++n) leaning.insert(leaning.end(), {-n * roll_step, n * roll_step});
+    return find(leaning, least_likeness_leaning);
   }
 
  private:
-  [[nodiscard]] Candidate find_best() {
+  [[nodiscard]] std::optional<SeenFace> find(std::span<const double> leans, double least) {
+    const Candidate best = find_best(leans);
+    return best.likeness < least ? std::nullopt : std::optional(seen_at(best));
+  }
+
+  [[nodiscard]] Candidate find_best(std::span<const double> leans) {
     Candidate best;
-    for (const Candidate& candidate : search()) {
+    for (const Candidate& candidate : search(leans)) {
       const Candidate fit = fit_from(candidate);
       if (fit.likeness > best.likeness) best = fit;
     }
     return best;
+  }
+
+  [[nodiscard]] SeenFace seen_at(const Candidate& c) {
+    const glm::dmat3 to_relief({c.left.x, c.left.y, 0.0}, {-c.left.y, c.left.x, 0.0}, {0.0, 0.0, 1.0});
+    look(relief_.with_step(knots_of_fit * c.es0), c);
+    prepare_places();
+    std::vector<double> off(seen_.size());
+    for (std::size_t i = 0; i < off.size(); ++i) off[i] = seen_[i] - places_[which_[i]].z;
+    std::vector<double> sorted = off;
+    const double depth = take_median(sorted);
+    for (double& z : off) z = std::clamp(z - depth, -deepest, deepest);
+    SeenFace face;
+    face.frame.scale = 1.0 / c.es0;
+    face.frame.rotation = glm::transpose(to_relief);
+    face.frame.from = {c.x, c.y, depth * c.es0};
+    face.likeness = c.likeness;
+    face.slopes = slopes_of(off);
+    return face;
+  }
+
+  /// Of the plane that is fitted to depths at the places that were looked at last.
+  [[nodiscard]] glm::dvec2 slopes_of(std::span<const double> depths) const {
+    std::vector<double> x;
+    std::vector<double> y;
+    for (const std::size_t k : which_) {
+      x.push_back(places_[k].x);
+      y.push_back(places_[k].y);
+    }
+    const double along_y = dot(depths, slopes_[2]) / dot(y, slopes_[2]);
+    const double along_x = (dot(depths, slopes_[1]) - along_y * dot(y, slopes_[1])) / dot(x, slopes_[1]);
+    return {along_x, along_y};
   }
 
   /// The depths that are seen at the places of a face, in ES0.
@@ -190,25 +256,26 @@ class FaceSearch {
   }
 
   /// The best places of all sizes, in no order.
-  [[nodiscard]] std::vector<Candidate> search() {
+  [[nodiscard]] std::vector<Candidate> search(std::span<const double> leans) {
     std::vector<Candidate> best;
     double es0 = largest_face * std::max(relief_.width(), relief_.height());
     for (int size = 0; size < sizes; ++size) {
-      search_size(best, es0);
+      for (const double roll : leans) search_size(best, es0, roll);
       es0 /= size_step;
     }
     return best;
   }
 
-  void search_size(std::vector<Candidate>& best, double es0) {
+  void search_size(std::vector<Candidate>& best, double es0, double roll) {
     const FrontRelief::Level& level = relief_.with_step(knots_of_search * es0);
+    const glm::dvec2 left(std::cos(roll), std::sin(roll));
     const int columns = 1 + static_cast<int>(relief_.width() / (step * es0));
     constexpr int rows = static_cast<int>((greatest_forehead - least_forehead) / step);
     for (int column = 0; column < columns; ++column) {
       const double x = level.grid.origin.x + column * step * es0;
       const std::optional<double> top = top_at(level, x, es0);
       for (int row = 0; top && row < rows; ++row) {
-        Candidate c{x, *top - (least_forehead + row * step) * es0, es0};
+        Candidate c{x, *top - (least_forehead + row * step) * es0, es0, left};
         c.likeness = likeness_at(level, c);
         if (c.likeness > 0.0) keep_best(best, c);
       }
@@ -241,20 +308,20 @@ class FaceSearch {
   }
 
   /// Steps that grow smaller where none leads to a greater likeness.
-  [[nodiscard]] Candidate fit_from(Candidate best) {
+  [[nodiscard]] Candidate fit_from(const Candidate& start) {
     const auto look_at = [&](Candidate c) {
       c.likeness = likeness_at(relief_.with_step(knots_of_fit * c.es0), c);
       return c;
     };
-    best = look_at(best);
+    Candidate best = look_at(start);
     double length = first_fit_step;
     while (length > last_fit_step) {
       bool is_better = false;
       for (const double way : {-length, length}) {
-        const std::array<Candidate, 3> beside = {{{best.x + way * best.es0, best.y, best.es0},
-                                                  {best.x, best.y + way * best.es0, best.es0},
-                                                  {best.x, best.y, best.es0 * (1.0 + 0.5 * way)}}};
-        for (const Candidate& c : beside) {
+        for (const Candidate& c :
+             {best.moved_by({way, 0.0}), best.moved_by({0.0, way}), best.grown_by(0.5 * way), best.turned_by(way)}) {
+          const double lean = start.left.x * c.left.y - start.left.y * c.left.x;
+          if (std::abs(lean) > most_fitted_lean) continue;
           const Candidate next = look_at(c);
           if (next.likeness <= best.likeness) continue;
           best = next;
@@ -264,14 +331,6 @@ class FaceSearch {
       if (!is_better) length *= 0.5;
     }
     return best;
-  }
-
-  /// The z of the reference heads' origin.
-  [[nodiscard]] double depth_of(const Candidate& c) {
-    look(relief_.with_step(knots_of_fit * c.es0), c);
-    std::vector<double> off(seen_.size());
-    for (std::size_t i = 0; i < off.size(); ++i) off[i] = seen_[i] - places_[which_[i]].z;
-    return take_median(off) * c.es0;
   }
 
   const FrontRelief& relief_;
@@ -291,6 +350,10 @@ class FaceSearch {
 
 std::optional<SeenFace> search_face(const FrontRelief& relief, std::span<const ReferenceHead> references) {
   return FaceSearch(relief, references).run();
+}
+
+std::optional<SeenFace> search_leaning_face(const FrontRelief& relief, std::span<const ReferenceHead> references) {
+  return FaceSearch(relief, references).run_leaning();
 }
 
 }  // namespace semblante

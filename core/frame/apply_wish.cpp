@@ -1,5 +1,5 @@
-#include "core/frame/face_tilt.h"
 #include "core/frame/frame_guess.h"
+#include "core/geometry/rotation.h"
 
 namespace semblante {
 namespace {

@@ -1,9 +1,11 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 
 #include <glm/geometric.hpp>
 
-#include "core/frame/face_tilt.h"
+#include "core/anatomy/face_tilt.h"
 #include "core/frame/frame_guess.h"
 #include "core/frame/human_size.h"
 #include "core/tables/mpeg4.h"
@@ -93,10 +95,11 @@ glm::dvec3 front_of(std::span<const PlacedPoint> points) {
 
 bool is_known(const glm::dvec3& direction) { return direction != glm::dvec3(0.0); }
 
-std::vector<PlacedPoint> turned(std::span<const PlacedPoint> points, const glm::dmat3& rotation) {
-  std::vector<PlacedPoint> result(points.begin(), points.end());
-  for (PlacedPoint& point : result) point.position = rotation * point.position;
-  return result;
+std::array<std::optional<glm::dvec3>, feature_point_count> turned(std::span<const PlacedPoint> points,
+                                                                  const glm::dmat3& rotation) {
+  std::array<std::optional<glm::dvec3>, feature_point_count> places;
+  for (const PlacedPoint& point : points) places[point.id.value()] = rotation * point.position;
+  return places;
 }
 
 /// Where the left side, the top and the front of the head are, as far as points show it; zero: unknown.

@@ -61,9 +61,9 @@ struct PlacedPoint {
 ModelFrame guess_frame(const Model& model, const Surface& surface);
 
 /// Guesses from marked points, which are more reliable: left from pairs, up from eyes above mouth above chin, front
-/// from nose before ears, the tilt from the proportions of a face (face_tilt.h), the unit from the eye distance. A face
-/// that `before` turns upright already keeps its tilt. Members that the points do not determine keep the value in
-/// `before`. If left and right contradict the other evidence, they are ignored, with a reason.
+/// from nose before ears, the tilt from the proportions of a face (face_tilt.h of anatomy), the unit from the eye
+/// distance. A face that `before` turns upright already keeps its tilt. Members that the points do not determine keep
+/// the value in `before`. If left and right contradict the other evidence, they are ignored, with a reason.
 ModelFrame guess_frame(std::span<const PlacedPoint> points, const ModelFrame& before);
 
 }  // namespace semblante

@@ -16,6 +16,8 @@ struct Similarity {
   glm::dvec3 from{0.0}, to{0.0};
 
   [[nodiscard]] glm::dvec3 operator()(const glm::dvec3& p) const { return to + scale * (rotation * (p - from)); }
+  /// The p that is mapped to `q`.
+  [[nodiscard]] glm::dvec3 back(const glm::dvec3& q) const { return from + (q - to) * rotation / scale; }
 };
 
 /// The similarity that maps `from[i]` to `to[i]` with the least squared error (Horn 1987). Empty for fewer than three

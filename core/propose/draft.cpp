@@ -294,8 +294,7 @@ void Draft::settle(std::size_t id, const Spot& spot, ProposalMethod method, doub
     proposal.point.vertex = head_.surface.file_vertex_of[*spot.vertex];
     proposal.point.position = glm::vec3(head_.surface.positions[*spot.vertex]);
   } else {
-    const glm::dvec3 back = glm::transpose(frame_.rotation) * (spot.place - frame_.to) / frame_.scale;
-    proposal.point.position = glm::vec3(frame_.from + back);
+    proposal.point.position = glm::vec3(frame_.back(spot.place));
   }
   proposals_.points.push_back(std::move(proposal));
 }

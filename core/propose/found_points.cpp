@@ -1,6 +1,7 @@
 #include "core/propose/found_points.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -9,11 +10,14 @@
 #include <utility>
 
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 #include "core/anatomy/face_search.h"
+#include "core/anatomy/face_tilt.h"
 #include "core/anatomy/front_relief.h"
 #include "core/anatomy/part_roles.h"
 #include "core/anatomy/role_by_name.h"
+#include "core/geometry/rotation.h"
 #include "core/propose/face_front.h"
 #include "core/propose/face_surface.h"
 #include "core/propose/mouth_and_eyes.h"
@@ -106,6 +110,10 @@ constexpr PointsOfEye points_of_left_eye = {"3.5", "3.1", "3.3", "3.7", "3.11"};
 constexpr PointsOfEye points_of_right_eye = {"3.6", "3.2", "3.4", "3.8", "3.12"};
 
 glm::dvec3 centre_of(const Part& part) { return 0.5 * (glm::dvec3(part.box_min) + glm::dvec3(part.box_max)); }
+/// Cosines of the angle between the direction from eye to eye and X.
+constexpr double least_side_by_side = 0.5;
+constexpr double clearly_side_by_side = 0.95;
+
 double radius_of(const Part& eye, const Similarity& frame) {
   return 0.5 * frame.scale * double(eye.box_max.y - eye.box_min.y);
 }
@@ -121,18 +129,21 @@ Result<Eyeballs> find_eyeballs(std::span<const Part> parts) {
   if (!left || !right) return refused("the model has no two eyeballs that are parts of their own");
   const Eyeballs eyes{&parts[left->value()], &parts[right->value()]};
   const glm::dvec3 apart = centre_of(*eyes.left) - centre_of(*eyes.right);
-  constexpr double side_by_side = 0.95;  // cosine
-  if (!(apart.x > side_by_side * glm::length(apart)))
+  if (!(apart.x > least_side_by_side * glm::length(apart)))
     return refused("the eyes are not side by side: the head is turned in its file");
   return eyes;
 }
 
+/// Upright but for what the points of the face will show: faces are not quite symmetric.
 Similarity frame_between(const Eyeballs& eyes) {
   const glm::dvec3 left = centre_of(*eyes.left);
   const glm::dvec3 right = centre_of(*eyes.right);
+  const glm::dvec3 apart = left - right;
   Similarity frame;
-  frame.scale = 1.0 / glm::distance(left, right);
+  frame.scale = 1.0 / glm::length(apart);
   frame.from = 0.5 * (left + right);
+  if (!(apart.x > clearly_side_by_side * glm::length(apart)))
+    frame.rotation = rotation_between(glm::normalize(apart), {1.0, 0.0, 0.0});
   return frame;
 }
 
@@ -165,7 +176,7 @@ class EyesOfBalls {
     const glm::dvec3 centre = frame_(centre_of(eye));
     const double radius = radius_of(eye, frame_);
     const glm::dvec3 pupil = find_pupil(face_, parts_, eye.role, centre + glm::dvec3(0.0, 0.0, radius));
-    found.add_at(points.pupil, std::nullopt, frame_.from + pupil / frame_.scale, noise_of_pupil);
+    found.add_at(points.pupil, std::nullopt, frame_.back(pupil), noise_of_pupil);
     const auto opening = find_seen_opening(front, centre, radius);
     if (!opening) return;
     found.add(points.upper, opening->upper, noise_of_middle);
@@ -194,7 +205,7 @@ void find_pupils_by_likeness(Found& found, const FaceFront& front, const Similar
   for (const auto& [name, x] : {std::pair("3.5", 0.5), std::pair("3.6", -0.5)}) {
     const auto seen = front.column(x).at(0.0);
     const glm::dvec3 pupil(x, 0.0, seen ? seen->z : 0.0);
-    found.add_at(name, std::nullopt, frame.from + pupil / frame.scale, noise_of_likeness);
+    found.add_at(name, std::nullopt, frame.back(pupil), noise_of_likeness);
   }
 }
 
@@ -209,32 +220,76 @@ void find_lips_by_likeness(Found& found, const FaceFront& front, std::span<const
   }
 }
 
+/// How often a face is looked at again from where it looks to.
+constexpr int most_turns = 3;
+
+/// The rotation by which points that were found in `frame` show that the face is not upright there.
+std::optional<glm::dmat3> turn_by(std::span<const FoundPoint> points, const Similarity& frame,
+                                  std::span<const ReferenceHead> references) {
+  std::array<std::optional<glm::dvec3>, feature_point_count> places;
+  for (const FoundPoint& f : points) places[f.point.id.value()] = frame(glm::dvec3(f.point.position));
+  return upright_rotation(places, references);
+}
+
+/// Slopes of upright faces: sideways, and of nodding, in which people differ.
+constexpr double straight_slope = 0.1;
+constexpr double nodding_slope = 0.25;
+
+bool looks_straight(const SeenFace& face) {
+  return std::abs(face.slopes.x) < straight_slope && std::abs(face.slopes.y) < nodding_slope;
+}
+
+/// From the model's frame to that of a face that is looked at straight from its front.
+std::optional<Similarity> frame_by_likeness(const Surface& surface, std::span<const Triangle> triangles,
+                                            std::span<const ReferenceHead> references) {
+  std::optional<Similarity> frame;
+  glm::dmat3 turn(1.0);
+  for (int turns = 0; turns <= most_turns; ++turns) {
+    const auto relief = FrontRelief::draw(surface, triangles, turn);
+    auto face = relief ? search_face(*relief, references) : std::nullopt;
+    if (!face && relief && turns == 0) face = search_leaning_face(*relief, references);
+    if (!face) break;
+    frame = face->frame;
+    frame->from = glm::transpose(turn) * face->frame.from;
+    frame->rotation = face->frame.rotation * turn;
+    if (looks_straight(*face)) break;
+    const glm::dvec3 forward = glm::normalize(glm::dvec3(-face->slopes, 1.0));
+    turn = rotation_between(forward, {0.0, 0.0, 1.0}) * frame->rotation;
+  }
+  return frame;
+}
+
 }  // namespace
 
 Result<std::vector<FoundPoint>> find_points_by_eyeballs(const Surface& surface, std::span<const Part> described,
-                                                        std::span<const Triangle> triangles) {
+                                                        std::span<const Triangle> triangles,
+                                                        std::span<const ReferenceHead> references) {
   const std::vector<Part> parts = with_lids_as_skin(described);
   const auto eyes = find_eyeballs(parts);
   if (!eyes) return eyes.error();
-  const Similarity frame = frame_between(*eyes);
-  const FaceFront front(surface, parts, triangles, frame);
-  Found found(surface);
-  EyesOfBalls(surface, parts, *eyes, frame).find(found, front);
-  find_nose_and_mouth(found, front);
-  return found.take();
+  Similarity frame = frame_between(*eyes);
+  for (int turns = 0;; ++turns) {
+    const FaceFront front(surface, parts, triangles, frame);
+    Found found(surface);
+    EyesOfBalls(surface, parts, *eyes, frame).find(found, front);
+    find_nose_and_mouth(found, front);
+    std::vector<FoundPoint> points = found.take();
+    const auto turn = turns < most_turns ? turn_by(points, frame, references) : std::nullopt;
+    if (!turn) return points;
+    frame.rotation = *turn * frame.rotation;
+  }
 }
 
 std::vector<FoundPoint> find_points_by_likeness(const Surface& surface, std::span<const Part> described,
                                                 std::span<const Triangle> triangles,
                                                 std::span<const ReferenceHead> references) {
-  const auto relief = FrontRelief::draw(surface, triangles);
-  const auto face = relief ? search_face(*relief, references) : std::nullopt;
-  if (!face) return {};
+  const auto frame = frame_by_likeness(surface, triangles, references);
+  if (!frame) return {};
   std::vector<Part> parts = with_lids_as_skin(described);
-  make_skin_at(parts, surface, face->frame.from);
-  const FaceFront front(surface, parts, triangles, face->frame);
+  make_skin_at(parts, surface, frame->from);
+  const FaceFront front(surface, parts, triangles, *frame);
   Found found(surface);
-  find_pupils_by_likeness(found, front, face->frame);
+  find_pupils_by_likeness(found, front, *frame);
   if (!find_nose_and_mouth(found, front)) find_lips_by_likeness(found, front, references);
   return found.take();
 }

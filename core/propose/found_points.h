@@ -18,15 +18,17 @@ struct FoundPoint {
   double noise = 0.0;  ///< standard deviation, in ES0
 };
 
-// Both for an upright head. Points rising by id, no two at one vertex.
+// Both for a head that is upright but for a tilt: where the points, or the likeness, show that the face looks elsewhere
+// than along +Z, it is looked at again from there. Points rising by id, no two at one vertex.
 
 /// The points that are seen on a face with eyeballs: pupils; edges and corners of the eyes where the balls are seen
 /// between the lids; edges and corners of the mouth where lips touch that are far from each other along the surface;
 /// the tip of the nose. Points of the lids of eyes that are shut, and of lips that are joined, are missing.
 ///
-/// Errors: `missing` without two eyeballs, or if they are not side by side.
+/// Errors: `missing` without two eyeballs, or if they are not roughly side by side.
 Result<std::vector<FoundPoint>> find_points_by_eyeballs(const Surface& surface, std::span<const Part> parts,
-                                                        std::span<const Triangle> triangles);
+                                                        std::span<const Triangle> triangles,
+                                                        std::span<const ReferenceHead> references);
 
 /// The points of a face that is found by its likeness to the reference heads (face_search.h), whatever its eyes are:
 /// pupils as far as the likeness of the whole face shows them, mouth and tip of the nose as above; of lips that are

@@ -170,7 +170,7 @@ Result<std::vector<FoundPoint>> find_missing(const Surface& surface, std::span<c
     });
     return found;
   };
-  const auto by_eyeballs = find_points_by_eyeballs(surface, parts, triangles);
+  const auto by_eyeballs = find_points_by_eyeballs(surface, parts, triangles, references);
   std::string why = by_eyeballs ? "" : by_eyeballs.error().message;
   if (by_eyeballs) {
     auto found = without_marked(*by_eyeballs);

@@ -1,5 +1,5 @@
 // A head that is tilted in its file is turned upright by its points.
-#include "core/frame/face_tilt.h"
+#include "core/anatomy/face_tilt.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,6 +25,12 @@ std::vector<PlacedPoint> rotated(std::vector<PlacedPoint> points, const glm::dma
   return points;
 }
 
+std::optional<glm::dmat3> upright_rotation_of(std::span<const PlacedPoint> points) {
+  std::array<std::optional<glm::dvec3>, feature_point_count> places;
+  for (const PlacedPoint& point : points) places[point.id.value()] = point.position;
+  return upright_rotation(places);
+}
+
 /// What a person marks: the middle, the left side and one point of the right one.
 std::vector<PlacedPoint> of_one_side(std::vector<PlacedPoint> points) {
   std::erase_if(points, [](const PlacedPoint& point) {
@@ -46,8 +52,8 @@ Error error_of(const glm::dmat3& left_over) {
 TEST(FaceTilt, UprightHeads_AreUpright) {
   for (const Head& head : upright_heads()) {
     if (head.points.empty()) continue;
-    EXPECT_FALSE(upright_rotation(head.points)) << head.name;
-    EXPECT_FALSE(upright_rotation(of_one_side(head.points))) << head.name << ", one side";
+    EXPECT_FALSE(upright_rotation_of(head.points)) << head.name;
+    EXPECT_FALSE(upright_rotation_of(of_one_side(head.points))) << head.name << ", one side";
     EXPECT_EQ(guess_frame(head.points, {}).tilt, glm::dmat3(1.0)) << head.name;
   }
 }
@@ -80,11 +86,11 @@ std::vector<PlacedPoint> of_a_creature() {
 }
 
 TEST(FaceTilt, OfACreature_IsThatOfItsPlaneOfSymmetry) {
-  EXPECT_FALSE(upright_rotation(of_a_creature()));
+  EXPECT_FALSE(upright_rotation_of(of_a_creature()));
   for (const glm::dvec3 axis : {glm::dvec3(0, 1, 0), {0, 0, 1}, {0, 1, 1}}) {
     for (const double degrees : {-20.0, -10.0, 10.0, 20.0}) {
       const glm::dmat3 in_file = rotation(degrees, axis);
-      const auto upright = upright_rotation(rotated(of_a_creature(), in_file));
+      const auto upright = upright_rotation_of(rotated(of_a_creature(), in_file));
       ASSERT_TRUE(upright) << degrees;
       EXPECT_LT(error_of(*upright * in_file).across, 1.0) << degrees;
     }
@@ -106,10 +112,10 @@ TEST(FaceTilt, PointsOfNoFace_ShowNone) {
   std::shuffle(head.points.begin(), head.points.end(), random);
   std::vector<PlacedPoint> mixed = head.points;
   for (std::size_t i = 0; i < mixed.size(); ++i) mixed[i].position = head.points[(i + 7) % mixed.size()].position;
-  EXPECT_FALSE(upright_rotation(mixed));
-  EXPECT_FALSE(upright_rotation(rotated(of_one_side(upright_heads().front().points), rotation(20.0, {0, 1, 0}))));
-  EXPECT_FALSE(upright_rotation(std::span(head.points).first(5)));
-  EXPECT_FALSE(upright_rotation({}));
+  EXPECT_FALSE(upright_rotation_of(mixed));
+  EXPECT_FALSE(upright_rotation_of(rotated(of_one_side(upright_heads().front().points), rotation(20.0, {0, 1, 0}))));
+  EXPECT_FALSE(upright_rotation_of(std::span(head.points).first(5)));
+  EXPECT_FALSE(upright_rotation_of({}));
 }
 
 TEST(FaceTilt, AxesOfTheUser_AreTheHeads) {

@@ -1,10 +1,12 @@
 #include "core/propose/found_points.h"
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <utility>
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <gtest/gtest.h>
 
 #include "core/anatomy/part_roles.h"
@@ -32,7 +34,7 @@ std::vector<ReferenceHead> heads_of_others() {
 
 Result<std::vector<FoundPoint>> find_on(const Model& model) {
   const Surface surface = build_surface(model);
-  return find_points_by_eyeballs(surface, describe_parts(model, surface, {}), model.triangles);
+  return find_points_by_eyeballs(surface, describe_parts(model, surface, {}), model.triangles, heads_of_others());
 }
 
 std::vector<FoundPoint> find_by_likeness(const Model& model) {
@@ -51,12 +53,41 @@ Model looking_aside(Model model) {
   return model;
 }
 
-bool has(const std::vector<FoundPoint>& found, const char* name) {
-  return std::any_of(found.begin(), found.end(), [&](const FoundPoint& p) { return p.point.id == fp(name); });
-}
+struct Tilt {
+  const char* name;
+  glm::dvec3 axis;
+  double degrees;
+
+  [[nodiscard]] glm::dvec3 operator()(const glm::dvec3& p) const {
+    return glm::angleAxis(glm::radians(degrees), axis) * p;
+  }
+  [[nodiscard]] Model operator()(Model model) const {
+    for (glm::vec3& p : model.positions) p = glm::vec3((*this)(glm::dvec3(p)));
+    return model;
+  }
+};
+constexpr std::array tilts = {Tilt{"nods", {1.0, 0.0, 0.0}, 30.0},
+                              Tilt{"looks up", {1.0, 0.0, 0.0}, -25.0},
+                              Tilt{"looks to its left", {0.0, 1.0, 0.0}, 30.0},
+                              Tilt{"looks to its right", {0.0, 1.0, 0.0}, -20.0},
+                              Tilt{"leans to its right", {0.0, 0.0, 1.0}, 15.0},
+                              Tilt{"leans to its left", {0.0, 0.0, 1.0}, -40.0}};
 
 double eye_distance(const FeaturePointSet& points) {
   return glm::distance(find_point(points, fp("3.5"))->position, find_point(points, fp("3.6"))->position);
+}
+
+/// As parts of the distance of the eyes.
+void expect_found(const std::vector<FoundPoint>& found, const Tilt& tilt, const FeaturePointSet& placed, double bound) {
+  for (const FoundPoint& f : found) {
+    const glm::dvec3 place = tilt(glm::dvec3(find_point(placed, f.point.id)->position));
+    EXPECT_LT(glm::distance(glm::dvec3(f.point.position), place) / eye_distance(placed), bound)
+        << tilt.name << ", " << to_string(f.point.id);
+  }
+}
+
+bool has(const std::vector<FoundPoint>& found, const char* name) {
+  return std::any_of(found.begin(), found.end(), [&](const FoundPoint& p) { return p.point.id == fp(name); });
 }
 
 struct Bounds {
@@ -122,6 +153,25 @@ TEST(FoundPointsOfOthers, AScanHasNoEyeballs) {
   const auto found = find_on(sample_head_model({.form = SampleHeadForm::scan}));
   ASSERT_FALSE(found);
   EXPECT_EQ(found.error().message, "the model has no two eyeballs that are parts of their own");
+}
+
+TEST(FoundPointsOfOthers, AHeadWithATiltIsLookedAtFromItsFront) {
+  for (const Tilt& tilt : tilts) {
+    const auto found = find_on(tilt(sample_head_model()));
+    ASSERT_TRUE(found) << tilt.name << ": " << found.error().message;
+    EXPECT_GE(found->size(), 15U) << tilt.name;
+    expect_found(*found, tilt, sample_head_points(), 0.12);
+  }
+}
+
+TEST(FoundPointsOfOthers, AFaceWithATiltIsFoundByItsLikeness) {
+  const SampleHeadTraits& broad = testing::sample_family()[1].traits;
+  for (const Tilt& tilt : tilts) {
+    if (&tilt == &tilts.front()) continue;  // this face is then less like the others than the least likeness
+    const auto found = find_by_likeness(tilt(sample_head_model(broad)));
+    EXPECT_GE(found.size(), 7U) << tilt.name;
+    expect_found(found, tilt, sample_head_points(broad), 0.25);
+  }
 }
 
 TEST(FoundPointsOfOthers, AHeadThatLooksAsideIsRefused) {

@@ -1,16 +1,12 @@
-#include "core/frame/face_tilt.h"
+#include "core/anatomy/face_tilt.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <numbers>
 
 #include <glm/geometric.hpp>
-#include <glm/gtc/quaternion.hpp>
 #include <glm/matrix.hpp>
 
 #include "core/anatomy/point_symmetry.h"
-#include "core/anatomy/reference_heads.h"
+#include "core/geometry/rotation.h"
 #include "core/tables/mpeg4.h"
 
 namespace semblante {
@@ -34,12 +30,6 @@ bool is_of_the_face(FeaturePointId id) {
   return group != 6 && group != 7 && group != 11 && !(group == 9 && number >= 8 && number <= 11);
 }
 
-/// The smallest rotation from one unit vector to another, which is not its opposite.
-glm::dmat3 rotation_between(const glm::dvec3& from, const glm::dvec3& to) {
-  const glm::dvec3 axis = glm::cross(from, to);
-  return glm::mat3_cast(glm::normalize(glm::dquat(1.0 + glm::dot(from, to), axis.x, axis.y, axis.z)));
-}
-
 /// The rotation that takes yaw and roll from a face of any proportions, by the symmetry of its points. Empty if it is
 /// less than `least_tilt`.
 std::optional<glm::dmat3> straight_by_symmetry(const Places& places) {
@@ -50,8 +40,8 @@ std::optional<glm::dmat3> straight_by_symmetry(const Places& places) {
 }
 
 /// Relative to the spread of the face about its middle.
-double misfit(const Places& places, const Similarity& fit) {
-  const Places mean = mean_of(reference_heads());
+double misfit(const Places& places, const Similarity& fit, std::span<const ReferenceHead> references) {
+  const Places mean = mean_of(references);
   double squares = 0.0;
   double spread = 0.0;
   for (std::size_t id = 0; id < feature_point_count; ++id) {
@@ -66,30 +56,21 @@ double misfit(const Places& places, const Similarity& fit) {
 
 }  // namespace
 
-double degrees_of(const glm::dmat3& rotation) {
-  const double cosine = 0.5 * (rotation[0][0] + rotation[1][1] + rotation[2][2] - 1.0);
-  return std::acos(std::clamp(cosine, -1.0, 1.0)) * 180.0 / std::numbers::pi;
-}
-
-std::optional<glm::dmat3> upright_rotation(std::span<const PlacedPoint> points) {
-  Places places;
-  for (const PlacedPoint& point : points) {
-    if (is_of_the_face(point.id)) places[point.id.value()] = point.position;
-  }
+std::optional<glm::dmat3> upright_rotation(Places places, std::span<const ReferenceHead> references) {
   // Points of one side alone show yaw only as far as faces are alike.
   std::size_t count = 0;
   std::size_t pairs = 0;
   for (std::size_t id = 0; id < feature_point_count; ++id) {
     const std::uint8_t mirror = mpeg4::feature_points[id].mirror;
-    if (!places[mirror]) places[id].reset();
+    if (!places[mirror] || !is_of_the_face(FeaturePointId(static_cast<std::uint8_t>(id)))) places[id].reset();
     if (!places[id]) continue;
     ++count;
     if (mirror > id) ++pairs;
   }
   if (count < least_points || pairs < least_pairs) return std::nullopt;
-  const auto fit = fit_to_references(places);
+  const auto fit = fit_to_references(places, references);
   if (!fit) return straight_by_symmetry(places);
-  const double off = misfit(places, *fit);
+  const double off = misfit(places, *fit, references);
   if (off > most_misfit) return straight_by_symmetry(places);
   if (degrees_of(fit->rotation) > 90.0) return std::nullopt;
   // fit->rotation = nod * straight, where `straight` is the part without pitch.

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 
 #include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
 
-#include "core/frame/frame_guess.h"
+#include "core/anatomy/reference_heads.h"
+#include "core/types/feature_point_id.h"
 
 namespace semblante {
 
@@ -16,9 +19,7 @@ namespace semblante {
 /// Yaw and roll are those of the best fit to the reference heads. How far upright faces of different people nod in the
 /// same fit differs by up to 7 degrees (as measured on 16 faces, each left out of the references), so the pitch of a
 /// head without yaw and roll is left as it is up to 12 degrees.
-std::optional<glm::dmat3> upright_rotation(std::span<const PlacedPoint> points);
-
-/// The angle of a rotation, degrees.
-double degrees_of(const glm::dmat3& rotation);
+std::optional<glm::dmat3> upright_rotation(std::array<std::optional<glm::dvec3>, feature_point_count> places,
+                                           std::span<const ReferenceHead> references = reference_heads());
 
 }  // namespace semblante
