@@ -24,6 +24,28 @@ describe('draft store', () => {
     expect(storage.length).toBe(0);
   });
 
+  test('Drafts_OfTwoPagesAtOneHead_LoseNothingOfEachOther', () => {
+    const storage = memory();
+    const [one, two] = [new DraftStore(storage), new DraftStore(storage)];
+    one.keep('a', 'y', new Map([['2.1', placed(1)]]));
+    two.keep('a', 'y', new Map([['8.1', placed(2)]]));
+    const both = new Map([['2.1', placed(1)], ['8.1', placed(2)]]);
+    expect(new DraftStore(storage).read('a', 'y')).toEqual(both);
+    two.keep('a', 'y', new Map()); // it has saved
+    expect(new DraftStore(storage).read('a', 'y')).toEqual(new Map([['2.1', placed(1)]]));
+    const reloaded = new DraftStore(storage);
+    reloaded.read('a', 'y');
+    reloaded.keep('a', 'y', new Map());
+    expect(storage.length).toBe(0);
+  });
+
+  test('Drafts_OfAForgottenHead_AreGoneForEveryPage', () => {
+    const storage = memory();
+    new DraftStore(storage).keep('a', 'y', new Map([['2.1', placed(1)]]));
+    new DraftStore(storage).forget('a');
+    expect(storage.length).toBe(0);
+  });
+
   test('Drafts_HeadWithOtherAxes_AreNotGiven', () => {
     const store = new DraftStore(memory());
     store.keep('a', 'y', new Map([['2.1', placed(1)]]));
@@ -56,12 +78,13 @@ describe('draft store', () => {
 
   test('Drafts_StorageThatRefuses_IsSurvived', () => {
     const full = memory();
-    full.setItem = () => {
+    full.setItem = full.removeItem = () => {
       throw new DOMException('full', 'QuotaExceededError');
     };
     for (const storage of [full, null]) {
       const store = new DraftStore(storage);
       store.keep('a', 'y', new Map([['2.1', placed(1)]]));
+      store.forget('a');
       expect(store.read('a', 'y').size).toBe(0);
     }
   });

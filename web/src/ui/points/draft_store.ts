@@ -6,28 +6,48 @@ const prefix = 'semblante.draft.';
 /**
  * Keeps the unsaved points of each head in the browser, so that they survive a reload, a change of head and a lost network.
  * Only what differs from the server's points is kept, with what it was made over: what others save in the meantime stays theirs, and is
- * seen when it is of the same point.
+ * seen when it is of the same point. Pages that are open at the same time share the storage: each replaces only what it has kept or read
+ * itself.
  */
 export class DraftStore {
+  /** By head the ids that this page has kept or read. */
+  private readonly own = new Map<string, ReadonlySet<string>>();
+
   constructor(private readonly storage: Storage | null) {}
 
   /** `axes`: the axes of the head; positions of other axes are of no use. */
   keep(head: string, axes: string, changes: PointChanges): void {
-    const key = prefix + head;
+    const own = this.own.get(head);
+    const others = [...this.stored(head, axes)].filter(([id]) => !own?.has(id));
+    const all = new Map([...others, ...changes]);
+    this.own.set(head, new Set(changes.keys()));
     try {
-      if (changes.size === 0) this.storage?.removeItem(key);
-      else this.storage?.setItem(key, JSON.stringify({ axes, points: column(changes, 'point'), over: column(changes, 'over') }));
+      if (all.size === 0) this.storage?.removeItem(prefix + head);
+      else this.storage?.setItem(prefix + head, JSON.stringify({ axes, points: column(all, 'point'), over: column(all, 'over') }));
     } catch {
       return; // storage is full or forbidden: the draft lasts as long as the page
     }
   }
 
+  /** Also what other pages have kept of it. */
   forget(head: string): void {
-    this.keep(head, '', new Map());
+    this.own.delete(head);
+    try {
+      this.storage?.removeItem(prefix + head);
+    } catch {
+      return; // as above
+    }
   }
 
-  /** What was kept of a head; what is not understood is left out. */
+  /** What was kept of a head, to be changed by this page. */
   read(head: string, axes: string): PointChanges {
+    const changes = this.stored(head, axes);
+    this.own.set(head, new Set(changes.keys()));
+    return changes;
+  }
+
+  /** What is not understood is left out. */
+  private stored(head: string, axes: string): PointChanges {
     const changes = new Map<string, PointChange>();
     try {
       const kept = JSON.parse(this.storage?.getItem(prefix + head) ?? 'null') as unknown;
