@@ -72,11 +72,11 @@ describe('point draft', () => {
     expect(draft.points.get('2.1')?.vertex).toBe(10);
   });
 
-  test('Draft_SameChangeOnBothSides_IsNotContested', () => {
+  test('Draft_SameChangeOnBothSides_IsNoNews', () => {
     const draft = new PointDraft();
     draft.reset([['2.1', at(1)]]);
     draft.place('2.1', at(5));
-    expect(draft.rebase([['2.1', at(5)]])).toEqual({ changed: ['2.1'], contested: new Map() });
+    expect(draft.rebase([['2.1', at(5)]])).toEqual({ changed: [], contested: new Map() });
     expect(draft.changes).toBe(0);
   });
 

@@ -103,6 +103,16 @@ test('Points_BothSaveWithinTheUpdate_BothAreKept', async () => {
   expect(problems).toEqual([]);
 });
 
+test('Points_SavedWithoutHearingTheAnswer_AreNobodyElses', async () => {
+  const server = new Server();
+  const { points, said, problems } = await open(server);
+  move(points, '2.1', 10);
+  server.write({ '2.1': at(10) }); // this page's own request, whose answer was lost
+  expect(await points.save()).toBe(true);
+  expect(points.draft.changes).toBe(0);
+  expect([...said, ...problems]).toEqual([]);
+});
+
 test.each([true, false])('Points_OnePointChangedByBoth_IsAChoice (theirs: %s)', async (theirs) => {
   const server = new Server();
   const { points, said, problems } = await open(server);

@@ -62,19 +62,19 @@ export class PointDraft {
   /**
    * Takes points that someone else has saved: whatever is not changed here follows them, also in the steps that can be undone or
    * redone, so that undoing a change of one's own undoes nothing of theirs. Unsaved changes stay. `changed`: the ids that differ
-   * from before; `contested`: those among them that have another, unsaved change here, each with the server's point from before.
+   * from before and from the draft, so not those that this page has saved without hearing the answer; `contested`: those among them
+   * that have an unsaved change here, each with the server's point from before.
    */
   rebase(points: Iterable<[string, PlacedPoint]>): { changed: string[]; contested: Map<string, PointOrNone> } {
     const before = this.saved;
     const now = new Map([...points].filter(([id]) => pointById(id) !== undefined));
     const changed = [...new Set([...before.keys(), ...now.keys()])].filter((id) => !same(before.get(id), now.get(id)));
-    const contested = new Map(
-      changed.filter((id) => this.isChanged(id) && !same(this.current.get(id), now.get(id))).map((id) => [id, before.get(id) ?? null]),
-    );
+    const unknown = changed.filter((id) => !same(this.current.get(id), now.get(id)));
+    const contested = new Map(unknown.filter((id) => this.isChanged(id)).map((id) => [id, before.get(id) ?? null]));
     for (const state of [this.current, ...this.history, ...this.undone])
       for (const id of changed) if (same(state.get(id), before.get(id))) put(state, id, now.get(id));
     this.saved = now;
-    return { changed, contested };
+    return { changed: unknown, contested };
   }
 
   /** Gives up the unsaved changes of these points, as one step that can be undone. */
