@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/tables/mpeg4.h"
+
 namespace semblante::testing {
 namespace {
 
@@ -67,6 +69,22 @@ TEST(SdkExports, Header_DeclaresExactlyTheList) {
   headers = without_comments(headers);
   const std::string code = std::regex_replace(headers, std::regex(R"(#ifdef __wasm__[^#]*#endif)"), "");
   EXPECT_EQ(matches(code, std::regex(R"(\b(semblante_\w+)\()")), listed);
+}
+
+/// "0 none, 1 joy, ...": what a frame's number means.
+template <class Entries>
+std::string numbered(const Entries& entries) {
+  std::string text;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    text += (i > 0 ? ", " : "") + std::to_string(i) + " " + std::string(entries[i].name);
+  }
+  return text + "\n";
+}
+
+TEST(SdkExports, Header_NamesTheVisemesAndExpressionsOfTheTables) {
+  const std::string header = read(SEMBLANTE_SOURCE_DIR "/clients/runtime/semblante.h");
+  EXPECT_NE(header.find("viseme: " + numbered(mpeg4::visemes)), std::string::npos);
+  EXPECT_NE(header.find("expression: " + numbered(mpeg4::expressions)), std::string::npos);
 }
 
 }  // namespace
