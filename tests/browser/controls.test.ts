@@ -81,6 +81,31 @@ describe('controls', () => {
     await studio.close();
   });
 
+  test('Page_AtFourTimesTheSize_CutsNoControlOff', async () => {
+    for (const [width, height] of [[320, 256], [561, 320]] as const) {
+      const studio = await StudioPage.open(browser, `${server.url}/#sample/animate`, { width, height });
+      const { page } = studio;
+      await studio.waitForStage('ready');
+      for (const tab of ['heads', 'fit', 'points', 'animate', 'live']) {
+        await page.locator(`#tab-${tab}`).click();
+        const cut = await page.locator(`:is(.tabs, #panel-${tab}) :is(button, input, select):visible`).evaluateAll((controls) =>
+          controls.filter((one) => {
+            one.scrollIntoView({ block: 'center' });
+            const { left, right, top, bottom } = one.getBoundingClientRect();
+            const box = document.querySelector('.inspector')!.getBoundingClientRect();
+            return left < box.left - 1 || right > box.right + 1 || top < 0 || bottom > innerHeight;
+          }).map((one) => one.outerHTML.slice(0, 90)),
+        );
+        expect(cut, `${tab}, ${width} by ${height}`).toEqual([]);
+      }
+      const words = await page.locator('.tab > .icon + span').evaluateAll((spans) => spans.map((span) => span.getBoundingClientRect()).map(({ left, right }) => ({ left, right })));
+      for (const [i, { left }] of words.entries()) if (i > 0) expect(left, `tabs, ${width} by ${height}`).toBeGreaterThanOrEqual(words[i - 1]!.right);
+      await studio.keep(`four-times-${width}-${height}`);
+      expect(studio.errors).toEqual([]);
+      await studio.close();
+    }
+  });
+
   test('Facts_OfAStream_OnTheNarrowestPhoneWithLettersOf24Pixels_AreNotCutOff', async () => {
     await fetch(`${server.url}/v1/streams`, { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: '{"name":"facts"}' });
     // 320 pixels at such letters are as wide as 213 at the usual size.

@@ -11,6 +11,8 @@ const sizes = {
   wide: { viewport: { width: 1440, height: 900 } },
   laptop: { viewport: { width: 1024, height: 700 } },
   phone: { viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true },
+  /** A window of 1280 by 1024 pixels at four times the size. */
+  zoomed: { viewport: { width: 320, height: 256 } },
 } satisfies Record<string, BrowserContextOptions>;
 
 const every: Look[] = Object.entries(sizes).flatMap(([size, options]) =>
@@ -22,9 +24,9 @@ const every: Look[] = Object.entries(sizes).flatMap(([size, options]) =>
   ),
 );
 
-/** The usual looks have each theme and each language, those of `tests/run --browser` both themes at both sizes. */
+/** The usual looks have each theme and each language, those of `tests/run --browser` both themes at both sizes, and one at four times the size. */
 const usual = ['wide-light-en', 'phone-dark-pt'];
-const variants = [...usual, 'wide-dark-pt', 'phone-light-en'];
+const variants = [...usual, 'wide-dark-pt', 'phone-light-en', 'zoomed-light-en'];
 
 /** Every screen in every look is kept as a picture, to be looked at by people. */
 export const keepsPictures = process.env['SEMBLANTE_SCREENS'] === 'all';
