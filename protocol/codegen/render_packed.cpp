@@ -4,17 +4,6 @@
 namespace semblante::codegen {
 namespace {
 
-/// Lines of at most 20 numbers.
-std::string numbers(const Json& values, const std::string& indent) {
-  std::string out;
-  std::size_t i = 0;
-  for (const Json& value : values) {
-    out += (i % 20 == 0 ? (i == 0 ? "" : ",\n") + indent : ", ") + value.dump();
-    ++i;
-  }
-  return out;
-}
-
 std::string all_values(const Json& packed, const std::string& comment, const std::string& indent) {
   std::string out;
   for (const Json& table : packed.at("tables")) {

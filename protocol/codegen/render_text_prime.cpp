@@ -1,46 +1,56 @@
+#include <memory>
+
 #include "protocol/codegen/render.h"
 #include "protocol/codegen/schema.h"
+#include "protocol/cpp/range_coder.h"
+#include "protocol/cpp/text_model.h"
 
 namespace semblante::codegen {
 namespace {
 
-std::string escaped(const std::string& hexadecimal) {
-  std::string out;
-  for (std::size_t i = 0; i + 1 < hexadecimal.size(); i += 2) out += "\\x" + hexadecimal.substr(i, 2);
-  return out;
+std::vector<std::uint8_t> bytes_of(const std::string& hexadecimal) {
+  std::vector<std::uint8_t> bytes;
+  for (std::size_t i = 0; i + 1 < hexadecimal.size(); i += 2)
+    bytes.push_back(static_cast<std::uint8_t>(std::stoul(hexadecimal.substr(i, 2), nullptr, 16)));
+  return bytes;
+}
+
+/// The texts as a model codes them that has learned nothing else.
+std::vector<std::uint8_t> packed(const Json& texts) {
+  std::vector<std::uint8_t> bytes;
+  RangeEncoder coder(bytes);
+  const auto memory = std::make_unique<text_model::Memory>();
+  text_model::TextModel model(coder, *memory);
+  for (const Json& each : texts) {
+    SpeechText known;
+    known.language = text(each, "language");
+    known.text = text(each, "text");
+    known.score = bytes_of(text(each, "score"));
+    model.message(known);
+  }
+  coder.finish();
+  return bytes;
 }
 
 }  // namespace
 
 std::string render_text_prime(const Json& prime) {
-  std::string out = R"(// Generated from protocol/schema by semblante-codegen-protocol; change the schema, not this.
+  const Json& texts = prime.at("texts");
+  return R"(// Generated from protocol/schema by semblante-codegen-protocol; change the schema, not this.
 // clang-format off
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace semblante {
 
-/// Sizes in bytes of a text that both sides of a packed text know: SPEC.md, "Packed text".
-struct KnownText {
-  std::uint16_t language, text, score;
-};
-
-)";
-  std::string sizes, bytes;
-  for (const Json& known : prime.at("texts")) {
-    const std::string language = text(known, "language"), words = text(known, "text"), score = text(known, "score");
-    sizes += "    {" + std::to_string(language.size()) + ", " + std::to_string(words.size()) + ", " +
-             std::to_string(score.size() / 2) + "},\n";
-    bytes += "\n    " + known.at("language").dump() + " " + known.at("text").dump() + " \"" + escaped(score) + "\"";
-  }
-  out += "inline constexpr std::array<KnownText, " + std::to_string(prime.at("texts").size()) + "> text_prime = {{\n" +
-         sizes +
-         "}};\n\n/// Language, text and score of each, one after another: pointers to each would take more than they "
-         "do.\n" +
-         "inline constexpr char text_prime_bytes[] =" + bytes + ";\n";
-  return out + "\n}  // namespace semblante\n";
+/// The texts that both sides of a packed text know (SPEC.md, "Packed text"), coded one after another by the model that
+/// is to learn from them.
+inline constexpr std::size_t text_prime_count = )" +
+         std::to_string(texts.size()) + ";\ninline constexpr auto text_prime = std::to_array<std::uint8_t>({\n" +
+         numbers(Json(packed(texts)), "    ") + "});\n\n}  // namespace semblante\n";
 }
 
 }  // namespace semblante::codegen

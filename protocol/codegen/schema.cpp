@@ -9,4 +9,14 @@ std::string documentation(const Json& field) {
   return doc.empty() ? unit : unit + "; " + doc;
 }
 
+std::string numbers(const Json& values, const std::string& indent) {
+  std::string out;
+  std::size_t i = 0;
+  for (const Json& value : values) {
+    out += (i % 20 == 0 ? (i == 0 ? "" : ",\n") + indent : ", ") + value.dump();
+    ++i;
+  }
+  return out;
+}
+
 }  // namespace semblante::codegen

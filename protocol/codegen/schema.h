@@ -20,5 +20,7 @@ inline bool appended(const Json& field) {
 }
 /// A field's documentation with its unit in front: "ms, since 1970".
 std::string documentation(const Json& field);
+/// Lines of at most 20 numbers.
+std::string numbers(const Json& values, const std::string& indent);
 
 }  // namespace semblante::codegen

@@ -1,5 +1,6 @@
 #include "protocol/cpp/packed_text.h"
 
+#include <cassert>
 #include <memory>
 #include <string>
 
@@ -11,33 +12,21 @@
 #include "protocol/cpp/utf8.h"
 
 namespace semblante {
-namespace {
 
 using text_model::Memory;
 using text_model::TextModel;
 
-/// For texts that both sides know.
-struct Listener {
-  static constexpr bool decodes = false;
-  static int bit(std::uint32_t /*chance*/, int value) { return value; }
-};
-
-}  // namespace
-
 const Memory& text_model::primed() {
   static const auto memory = [] {
     auto learned = std::make_unique<Memory>();
-    Listener nobody;
-    TextModel model(nobody, *learned);
-    const char* at = text_prime_bytes;
-    for (const auto& [language, text, score] : text_prime) {
+    RangeDecoder coder(text_prime);
+    TextModel model(coder, *learned);
+    for (std::size_t i = 0; i < text_prime_count; ++i) {
       SpeechText known;
-      known.language.assign(at, language);
-      known.text.assign(at + language, text);
-      known.score.assign(at + language + text, at + language + text + score);
-      at += language + text + score;
-      model.message(known);
+      [[maybe_unused]] const auto wrong = model.message(known);
+      assert(wrong.empty());
     }
+    assert(!coder.truncated() && !coder.has_more());
     return learned;
   }();
   return *memory;

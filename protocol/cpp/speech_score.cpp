@@ -55,13 +55,6 @@ std::vector<std::uint8_t> write_score(const SpeechScore& score) {
   return bytes;
 }
 
-std::vector<std::size_t> word_begins(std::string_view text) {
-  std::vector<std::size_t> begins;
-  for (std::size_t i = 0; i < text.size(); ++i)
-    if (!separates_words(text[i]) && (i == 0 || separates_words(text[i - 1]))) begins.push_back(i);
-  return begins;
-}
-
 Status check_text(const SpeechText& text) {
   const auto score = read_score(text.score);
   if (!score) return Error{ErrorCode::malformed, "/score", "is no score"};

@@ -44,7 +44,12 @@ std::vector<std::uint8_t> write_score(const SpeechScore& score);
 /// Spaces, tabs and ends of lines.
 inline bool separates_words(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 /// Where the words of a text begin, in bytes: what is between them.
-std::vector<std::size_t> word_begins(std::string_view text);
+inline std::vector<std::size_t> word_begins(std::string_view text) {
+  std::vector<std::size_t> begins;
+  for (std::size_t i = 0; i < text.size(); ++i)
+    if (!separates_words(text[i]) && (i == 0 || separates_words(text[i - 1]))) begins.push_back(i);
+  return begins;
+}
 
 /// `malformed` at /score unless it is a score with as many words as the text.
 Status check_text(const SpeechText& text);

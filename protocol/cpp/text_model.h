@@ -128,7 +128,7 @@ constexpr unsigned usual_visemes(char c) {
   }
 }
 
-/// Codes texts one after another; learns from each. Coder: RangeEncoder, RangeDecoder, or one that is told all.
+/// Codes texts one after another; learns from each. Coder: RangeEncoder or RangeDecoder.
 template <class Coder>
 class TextModel {
  public:
