@@ -10,8 +10,8 @@ namespace semblante {
 namespace {
 
 /// `where()`: the pointer, made only for an error.
-template <class Where>
-Status check(const RangeDecoder& coder, const PackedModel<RangeDecoder>& model, const Where& where) {
+template <class Coder, class Where>
+Status check(const RangeDecoder& coder, const PackedModel<Coder>& model, const Where& where) {
   if (!coder.valid()) return Error{ErrorCode::malformed, where(), "is not the start of a packed message"};
   if (coder.truncated()) return Error{ErrorCode::truncated, where(), "the message ends within a packed state"};
   if (!model.fault().empty()) return Error{ErrorCode::out_of_range, where() + model.fault(), "outside its range"};
@@ -41,7 +41,8 @@ Result<Keyframe> read_packed_keyframe(std::span<const std::uint8_t> bytes, Packe
   if (media_time > max_media_time) return out_of_range("/media_time");
 
   RangeDecoder coder(bytes.subspan(reader.position()));
-  PackedModel model(coder, table, read);
+  ModelCoder<RangeDecoder> model_coder(coder);
+  PackedModel model(model_coder, table, read);
   model.history(PackedState{});
   read.media_time = media_time;
   if (auto status = check(coder, model, [] { return std::string("/state"); }); !status)
@@ -59,7 +60,8 @@ Status read_packed_frames(std::span<const std::uint8_t> bytes, PackedState& stat
   }
   PackedState read = state;
   RangeDecoder coder(bytes.subspan(1));
-  PackedModel model(coder, table, read);
+  ModelCoder<RangeDecoder> model_coder(coder);
+  PackedModel model(model_coder, table, read);
   frames.frames.clear();
   frames.sequence = next;
   const std::uint64_t count = model.count(0);

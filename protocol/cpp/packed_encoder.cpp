@@ -27,7 +27,8 @@ void PackedEncoder::encode(const Frames& frames, std::vector<std::uint8_t>& to) 
   assert(frames.media_time <= max_media_time);
   to.push_back(static_cast<std::uint8_t>(MessageTraits<Frames>::type | ((state_.sequence + 1) & 0x7FU)));
   RangeEncoder coder(to);
-  PackedModel model(coder, *table_, state_);
+  ModelCoder<RangeEncoder> model_coder(coder);
+  PackedModel model(model_coder, *table_, state_);
   model.count(frames.frames.size());
   model.base_time(frames.media_time);
   model.offset(frames.frames.front().time);
@@ -50,7 +51,8 @@ std::vector<std::uint8_t> PackedEncoder::keyframe() const {
   byte_io::append_varint(bytes, state_.media_time);
   RangeEncoder coder(bytes);
   PackedState initial;
-  PackedModel model(coder, *table_, initial);
+  ModelCoder<RangeEncoder> model_coder(coder);
+  PackedModel model(model_coder, *table_, initial);
   model.history(state_);
   coder.finish();
   return bytes;

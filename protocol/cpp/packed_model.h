@@ -14,8 +14,19 @@
 #include "protocol/cpp/messages.h"
 #include "protocol/cpp/packed_codec.h"
 #include "protocol/cpp/packed_state.h"
+#include "protocol/cpp/range_coder.h"
 
 namespace semblante {
+
+/// The coder that a model is made for. Where size counts, the code of the model is there once for both directions, for
+/// a branch at each bit.
+#ifdef __OPTIMIZE_SIZE__
+template <class Coder>
+using ModelCoder = EitherCoder;
+#else
+template <class Coder>
+using ModelCoder = Coder&;
+#endif
 
 /// The model of the packed form (SPEC.md, "Packed form"): which bits code frames and times, with which contexts. The
 /// same code encodes and decodes: each function takes the value to encode (ignored by a decoding Coder) and returns the
@@ -128,7 +139,7 @@ template <class Coder>
 std::uint64_t PackedModel<Coder>::number(std::size_t lengths, unsigned most, std::uint64_t value) {
   const std::uint64_t more = value + 1;
   const auto wanted = static_cast<unsigned>(std::bit_width(more)) - 1U;
-  assert(Coder::decodes || wanted <= most);
+  assert(coder_.decodes || wanted <= most);
   unsigned bits = 0;
   while (bits < most && flag(lengths + bits, bits < wanted)) ++bits;
   if (bits == 0) return 0;

@@ -132,4 +132,24 @@ class RangeDecoder {
   bool valid_ = true;
 };
 
+/// Either of them, chosen when the program runs: code that is to be small has a model once for both.
+class EitherCoder {
+ public:
+  explicit EitherCoder(RangeEncoder& encoder) : decodes(false), encoder_(&encoder) {}
+  explicit EitherCoder(RangeDecoder& decoder) : decodes(true), decoder_(&decoder) {}
+
+  const bool decodes;
+
+  int bit(std::uint32_t probability, int value) {
+    return decodes ? decoder_->bit(probability) : encoder_->bit(probability, value);
+  }
+  std::uint64_t bits(unsigned count, std::uint64_t value) {
+    return decodes ? decoder_->bits(count) : encoder_->bits(count, value);
+  }
+
+ private:
+  RangeEncoder* encoder_ = nullptr;
+  RangeDecoder* decoder_ = nullptr;
+};
+
 }  // namespace semblante
