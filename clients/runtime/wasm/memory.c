@@ -153,9 +153,3 @@ void* realloc(void* memory, size_t bytes) {
 void* memcpy(void* restrict to, const void* restrict from, size_t bytes) { return __builtin_memcpy(to, from, bytes); }
 void* memmove(void* to, const void* from, size_t bytes) { return __builtin_memmove(to, from, bytes); }
 void* memset(void* to, int value, size_t bytes) { return __builtin_memset(to, value, bytes); }
-
-/* A module does not exit. */
-int __cxa_atexit(void (*f)(void*), void* of, void* library) { /* NOLINT(bugprone-reserved-identifier) */
-  (void)f, (void)of, (void)library;
-  return 0;
-}

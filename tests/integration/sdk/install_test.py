@@ -18,8 +18,8 @@ COLORED = TOP / "protocol/vectors/face_colored"
 STRICT = ["-Wall", "-Wextra", "-Werror", "-pedantic"]
 # What the whole tree wants; the library alone may ask for none of it.
 FOREIGN = ("Boost", "CLI11", "Eigen3", "GTest", "OpenMesh", "OpenSSL", "PkgConfig", "ZLIB", "meshoptimizer", "nlohmann_json")
-# Stripped, on 64-bit x86: about 453,000 with Draco's library beside it.
-MAX_SHARED_BYTES = 500_000
+# Stripped, on 64-bit x86: about 486,000 with Draco's library beside it.
+MAX_SHARED_BYTES = 490_000
 
 # What libsemblante.a wants of a C library, as clients/runtime/README.md states it: no file, socket, thread, clock or locale.
 STATED_FUNCTIONS = set(re.search(r"Of the C library it uses ([^:]*):", (TOP / "clients/runtime/README.md").read_text())[1]
