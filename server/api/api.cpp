@@ -52,10 +52,14 @@ std::string in_words(std::span<const std::string_view> words, std::string_view l
   return text;
 }
 
-/// Refuses a query parameter that the route does not have. `?ticket` is for all of them (access::Tickets). Probes and
-/// scrapers, which ask outside of /v1/, may add their own.
-std::optional<http::Response> refuse_unknown_query(const Route& route, const http::Request& head) {
+/// Refuses a query parameter that the route does not have, and one that is given twice: a proxy may decide by the
+/// other value. `?ticket` is for all routes (access::Tickets). Probes and scrapers, which ask outside of /v1/, may add
+/// their own.
+std::optional<http::Response> refuse_wrong_query(const Route& route, const http::Request& head) {
   if (!route.pattern.starts_with("/v1/")) return std::nullopt;
+  if (!head.repeated.empty())
+    return to_response(make_problem("invalid-argument", "the parameter \"" + head.repeated + "\" is given twice",
+                                    "?" + head.repeated));
   const auto is_unknown = [&](const auto& parameter) {
     return parameter.first != "ticket" && std::ranges::find(route.query, parameter.first) == route.query.end();
   };
@@ -188,7 +192,7 @@ std::variant<http::BodyPlan, http::Response> Api::plan(const http::Request& head
     return response;
   }
   if (auto refusal = refuse_access(security, context_.hub, head, route->scope)) return std::move(*refusal);
-  if (auto refusal = refuse_unknown_query(*route, head)) return std::move(*refusal);
+  if (auto refusal = refuse_wrong_query(*route, head)) return std::move(*refusal);
   if (!route->produces.empty() && route->produces != "*/*" &&
       !http::accepts(head.header("Accept").value_or(""), route->produces))
     return to_response(make_problem("not-acceptable", "the answer here is " + std::string(route->produces)));
@@ -257,7 +261,7 @@ std::variant<std::shared_ptr<http::WebSocketPeer>, http::Response> Api::open_web
   const auto& security = context_.config.security;
   if (auto refusal = refuse_entry(security, head)) return std::move(*refusal);
   if (auto refusal = refuse_access(security, context_.hub, head, access::Scope::read)) return std::move(*refusal);
-  if (auto refusal = refuse_unknown_query(*route, head)) return std::move(*refusal);
+  if (auto refusal = refuse_wrong_query(*route, head)) return std::move(*refusal);
   if (*context_.stopping) return stopping_response();
   const auto& rights = asking_of(head).rights;
   const auto& id = head.params.at("stream");

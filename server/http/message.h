@@ -48,7 +48,8 @@ struct Request {
   std::string method;                         ///< "GET", as sent
   std::string path;                           ///< percent-decoded, without the query
   std::string target;                         ///< path and query as sent
-  std::map<std::string, std::string> query;   ///< percent-decoded; of a repeated key the first counts
+  std::map<std::string, std::string> query;   ///< percent-decoded
+  std::string repeated;                       ///< the first key that the query has twice; its first value is in `query`
   Headers headers;                            ///< without hop-by-hop meaning
   std::string body;                           ///< if it is kept in memory
   std::shared_ptr<TemporaryFile> body_file;   ///< if the route keeps it on disk

@@ -31,7 +31,8 @@ std::optional<Target> parse_target(std::string_view target) {
     auto value = equals == std::string_view::npos ? std::optional<std::string>("")
                                                   : percent_decode(pair.substr(equals + 1), true);
     if (!key || !value) return std::nullopt;
-    result.query.try_emplace(std::move(*key), std::move(*value));
+    const auto [at, is_new] = result.query.try_emplace(std::move(*key), std::move(*value));
+    if (!is_new && result.repeated.empty()) result.repeated = at->first;
   }
   return result;
 }

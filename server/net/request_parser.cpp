@@ -82,6 +82,7 @@ void RequestParser::on_request_impl(boost::beast::http::verb, View method, View 
   }
   request_.path = std::move(parsed->path);
   request_.query = std::move(parsed->query);
+  request_.repeated = std::move(parsed->repeated);
 }
 
 void RequestParser::on_field_impl(boost::beast::http::field field, View name, View value, ErrorCode& error) {

@@ -77,8 +77,16 @@ TEST_F(BadInput, UnknownParameter_IsRefusedByEveryRouteWithThoseItHas) {
   EXPECT_EQ(request(port(), "GET", "/healthz?lmit=1").status, 200) << "probes may add their own";
   EXPECT_EQ(json_of(request(port(), "GET", "/v1/models?lmit=1"))["detail"],
             "there is no parameter \"lmit\" here; this route has limit and after");
-  EXPECT_EQ(json_of(request(port(), "GET", "/v1/streams?limit=1"))["detail"],
+  EXPECT_EQ(json_of(request(port(), "GET", "/v1/voices?limit=1"))["detail"],
             "there is no parameter \"limit\" here; this route has none");
+}
+
+TEST_F(BadInput, QueryParameterGivenTwice_IsNamed) {
+  const auto problem = json_of(request(port(), "GET", "/v1/models?limit=1&after=&limit=1"));
+  EXPECT_EQ(problem["type"], "/problems/invalid-argument") << problem;
+  EXPECT_EQ(problem["pointer"], "?limit");
+  EXPECT_EQ(problem["detail"], "the parameter \"limit\" is given twice");
+  EXPECT_EQ(request(port(), "GET", "/healthz?probe=1&probe=2").status, 200) << "probes may add their own";
 }
 
 TEST_F(BadInput, Pointers_EscapeWhatNamesHold) {

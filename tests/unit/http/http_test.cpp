@@ -23,10 +23,18 @@ TEST(Url, BrokenTargets_AreRefused) {
 }
 
 TEST(Url, Target_IsTakenApart) {
-  const auto target = parse_target("/v1/a%20b?x=1%2B2&y=a+b&x=9&z#end");
+  const auto target = parse_target("/v1/a%20b?x=1%2B2&y=a+b&z#end");
   ASSERT_TRUE(target);
+  EXPECT_EQ(target->repeated, "");
   EXPECT_EQ(target->path, "/v1/a b");
   EXPECT_EQ(target->query, (std::map<std::string, std::string>{{"x", "1+2"}, {"y", "a b"}, {"z", ""}}));
+}
+
+TEST(Url, KeyGivenTwice_IsNamed_HoweverItIsWritten) {
+  const auto target = parse_target("/?a=1&x=1&%78=2&a=1");
+  ASSERT_TRUE(target);
+  EXPECT_EQ(target->repeated, "x");
+  EXPECT_EQ(target->query, (std::map<std::string, std::string>{{"a", "1"}, {"x", "1"}}));
 }
 
 TEST(Url, AbsoluteForm_IsAHostAndATarget) {

@@ -10,6 +10,7 @@ export const portugueseRequests: Sentences = {
   'there is no field "{name}" here': 'aqui não há o campo "{name}"',
   'there is no parameter "{name}" here; this route has none': 'aqui não há o parâmetro "{name}"; este endereço não tem nenhum',
   'there is no parameter "{name}" here; this route has {names}': 'aqui não há o parâmetro "{name}"; este endereço tem {names}',
+  'the parameter "{name}" is given twice': 'o parâmetro "{name}" foi dado duas vezes',
   '{path} knows {methods}': '{path} só aceita {methods}',
   'there is no route {path}': 'não há o endereço {path}',
   'the answer here is {type}': 'a resposta aqui é {type}',
