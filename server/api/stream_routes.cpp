@@ -51,10 +51,17 @@ http::Response created(const streams::StreamInfo& info) {
 
 }  // namespace
 
-http::Response list_streams(Context& context, http::Request&) {
-  answer::Streams all{.streams = {}};
-  for (const auto& stream : context.hub.list()) all.streams.push_back(represent(stream));
-  return json_response(200, all);
+http::Response list_streams(Context& context, http::Request& request) {
+  const auto limit = page_size(request);
+  auto list = context.hub.list();
+  if (const auto after = request.query_value("after").value_or(""); !after.empty()) {
+    const auto last = std::ranges::find(list, after, &streams::StreamInfo::id);
+    if (last == list.end()) refuse("invalid-argument", "there is no stream with this id", "?after");
+    list.erase(list.begin(), std::next(last));
+  }
+  answer::Streams page{.streams = {}, .next = cut_to_page(list, limit)};
+  for (const auto& stream : list) page.streams.push_back(represent(stream));
+  return json_response(200, page);
 }
 
 http::Response create_stream(Context& context, http::Request& request) {

@@ -90,7 +90,7 @@ TEST_F(Idempotency, EveryRoute_MakesOne_AndKnowsItAfterAKill) {
   expect_one({"/v1/models/" + model + "/parametrizations", "{}"}, 202);
   expect_one({"/v1/expressions", R"({"name":"Grin","displacements":{}})"}, 201,
              listed("/v1/expressions?limit=200", "sets"));
-  expect_one({"/v1/streams", "{}"}, 201, listed("/v1/streams", "streams"));
+  expect_one({"/v1/streams", "{}"}, 201, listed("/v1/streams?limit=200", "streams"));
   request(port(), "POST", "/v1/streams", R"({"name":"talk"})", {{"Content-Type", "application/json"}});
   expect_one({"/v1/streams/talk/recordings", "{}"}, 201, listed("/v1/recordings?limit=200", "recordings"));
   // Enough points for a proposal to begin; what becomes of it on a grid does not matter here.

@@ -42,6 +42,25 @@ class Streams : public SharedServer {
   }
 };
 
+TEST_F(Streams, Pages_FollowNext) {
+  for (const auto* const name : {"page-a", "page-b", "page-c"}) create(name);
+  const auto all = json_of(request(port(), "GET", "/v1/streams?limit=200"));
+  ASSERT_TRUE(all["next"].is_null());
+  json listed = json::array();
+  std::string after;
+  do {
+    const auto page = json_of(request(port(), "GET", "/v1/streams?limit=2&after=" + after));
+    ASSERT_LE(page["streams"].size(), 2U);
+    for (const auto& stream : page["streams"]) listed.push_back(stream["id"]);
+    after = page["next"].is_null() ? "" : page["next"].get<std::string>();
+  } while (!after.empty());
+  json expected = json::array();
+  for (const auto& stream : all["streams"]) expected.push_back(stream["id"]);
+  EXPECT_EQ(listed, expected);
+  EXPECT_EQ(json_of(request(port(), "GET", "/v1/streams?after=no-such"))["pointer"], "?after");
+  EXPECT_EQ(json_of(request(port(), "GET", "/v1/streams?limit=201"))["pointer"], "?limit");
+}
+
 TEST_F(Streams, Subprotocol_IsEchoedOnlyIfOffered) {
   EXPECT_FALSE(WebSocket(port(), "/v1/streams/demo", "").handshake().headers.contains("sec-websocket-protocol"));
   EXPECT_FALSE(WebSocket(port(), "/v1/streams/demo", "chat").handshake().headers.contains("sec-websocket-protocol"));

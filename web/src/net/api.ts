@@ -55,15 +55,7 @@ export class Api {
 
   /** All models of all pages, in the server's order: newest first. */
   async listModels(): Promise<Model[]> {
-    const models: Model[] = [];
-    let after: string | null = null;
-    do {
-      const query: string = after === null ? '' : `&after=${segment(after)}`;
-      const { value: page } = await requestJson<ModelPage>(`${this.base}/v1/models?limit=100${query}`);
-      models.push(...page.models);
-      after = page.next;
-    } while (after !== null);
-    return models;
+    return this.listAll<ModelPage, Model>('/v1/models?limit=100', (page) => page.models);
   }
 
   async getModel(id: string): Promise<Model> {
@@ -250,8 +242,9 @@ export class Api {
     return `${this.base}/v1/jobs/${segment(id)}/events`;
   }
 
+  /** All streams of all pages; oldest first. */
   async listStreams(): Promise<StreamInfo[]> {
-    return (await requestJson<StreamPage>(`${this.base}/v1/streams`)).value.streams;
+    return this.listAll<StreamPage, StreamInfo>('/v1/streams?limit=200', (page) => page.streams);
   }
 
   async createStream(title: string, model: string | null, options: NewStream = {}): Promise<StreamInfo> {
@@ -295,15 +288,7 @@ export class Api {
   /** The recordings of a stream, or of all streams (`null`); oldest first. */
   async listRecordings(stream: string | null): Promise<Recording[]> {
     const url = stream === null ? '/v1/recordings' : `/v1/streams/${segment(stream)}/recordings`;
-    const recordings: Recording[] = [];
-    let after: string | null = null;
-    do {
-      const query: string = after === null ? '' : `&after=${segment(after)}`;
-      const { value: page } = await requestJson<RecordingPage>(`${this.base}${url}?limit=200${query}`);
-      recordings.push(...page.recordings);
-      after = page.next;
-    } while (after !== null);
-    return recordings;
+    return this.listAll<RecordingPage, Recording>(`${url}?limit=200`, (page) => page.recordings);
   }
 
   async startRecording(stream: string): Promise<Recording> {
@@ -341,6 +326,19 @@ export class Api {
     const url = `${this.base}/v1/streams/${segment(stream)}/plays`;
     const json: RecordingPlay = { recording, ...options };
     return (await requestJson<Playing>(url, { method: 'POST', json })).value;
+  }
+
+  /** What all pages of a list have; `path` has a query. */
+  private async listAll<Page extends { next: string | null }, Item>(path: string, itemsOf: (page: Page) => Item[]): Promise<Item[]> {
+    const items: Item[] = [];
+    let after: string | null = null;
+    do {
+      const query: string = after === null ? '' : `&after=${segment(after)}`;
+      const { value: page }: { value: Page } = await requestJson<Page>(`${this.base}${path}${query}`);
+      items.push(...itemsOf(page));
+      after = page.next;
+    } while (after !== null);
+    return items;
   }
 
   streamUrl(id: string): string {

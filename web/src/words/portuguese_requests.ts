@@ -43,6 +43,7 @@ export const portugueseRequests: Sentences = {
 
   // Heads, their parts and axes.
   'there is a model {id} already': 'já há uma cabeça {id}',
+  'there is no stream with this id': 'não há fluxo com este id',
   'there is no model with this id': 'não há cabeça com este id',
   'there is no model of this id': 'não há cabeça com este id',
   'the form has no part "file"': 'o formulário não tem a parte "file"',

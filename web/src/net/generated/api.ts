@@ -551,7 +551,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** All streams */
+        /** All streams, oldest first */
         get: operations["listStreams"];
         put?: never;
         /** Open a stream */
@@ -1063,6 +1063,8 @@ export interface components {
         };
         Streams: {
             streams: components["schemas"]["Stream"][];
+            /** @description Give it as `after` for the next page; null on the last */
+            next: string | null;
         };
         FramesReceipt: {
             accepted: number;
@@ -4227,7 +4229,12 @@ export interface operations {
     };
     listStreams: {
         parameters: {
-            query?: never;
+            query?: {
+                /** @description How many on a page */
+                limit?: components["parameters"]["limit"];
+                /** @description `next` of the page before */
+                after?: components["parameters"]["after"];
+            };
             header?: never;
             path?: never;
             cookie?: never;
@@ -4243,6 +4250,7 @@ export interface operations {
                     "application/json": components["schemas"]["Streams"];
                 };
             };
+            400: components["responses"]["Problem"];
             421: components["responses"]["Problem"];
             default: components["responses"]["Problem"];
         };
