@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/types/printable.h"
+
 namespace semblante::net {
 
 namespace {
@@ -12,6 +14,7 @@ constexpr unsigned mask_bit = 0x80, length_bits = 0x7F, two_byte_length = 126, e
 constexpr std::size_t fixed_bytes = 2, mask_bytes = 4;
 // Sections 7.4.1 and 7.4.2: the codes that there can be end before this one.
 constexpr unsigned end_of_codes = 5000;
+constexpr std::size_t code_bytes = 2, most_control_bytes = 125;
 
 std::size_t bytes_of_length(unsigned length) {
   return length == two_byte_length ? 2 : length == eight_byte_length ? 8 : 0;
@@ -35,8 +38,7 @@ std::optional<FrameGuard::Fault> FrameGuard::look_at_frames(std::string_view byt
         payload_left_ > 0 ? static_cast<std::size_t>(std::min<std::uint64_t>(payload_left_, bytes.size())) : 1;
     if (payload_left_ > 0) {
       payload_left_ -= passed;
-      if (takes_wrong_code(bytes.substr(0, passed)))
-        return Fault{"closes with a code that there is not", protocol_error};
+      if (const auto fault = look_at_close(bytes.substr(0, passed))) return fault;
     } else {
       header_[header_size_++] = static_cast<unsigned char>(bytes.front());
     }
@@ -44,7 +46,7 @@ std::optional<FrameGuard::Fault> FrameGuard::look_at_frames(std::string_view byt
     bytes_ += passed;
     if (header_size_ >= fixed_bytes && header_size_ >= header_bytes()) {
       payload_left_ = payload_bytes();
-      expect_code();
+      expect_close();
       header_size_ = 0;
       if (const auto fault = count_frame(now)) return fault;
     }
@@ -85,20 +87,25 @@ std::optional<FrameGuard::Fault> FrameGuard::count_frame(Clock::time_point now) 
 }
 
 /// At the end of a header.
-void FrameGuard::expect_code() {
-  const bool closes = (header_[0] & opcode_bits) == opcode_of_close;
-  code_bytes_left_ = closes && payload_left_ >= 2 && (header_[1] & mask_bit) != 0 ? 2 : 0;
-  close_code_ = 0;
+void FrameGuard::expect_close() {
+  closes_ = (header_[0] & opcode_bits) == opcode_of_close && (header_[1] & mask_bit) != 0 &&
+            payload_left_ >= code_bytes && payload_left_ <= most_control_bytes;
+  close_size_ = 0;
 }
 
-bool FrameGuard::takes_wrong_code(std::string_view payload) {
-  // Control frames have the short form of a length, so the mask follows the fixed bytes.
-  for (; code_bytes_left_ > 0 && !payload.empty(); payload.remove_prefix(1), --code_bytes_left_) {
-    const unsigned mask = header_.at(fixed_bytes + (2U - code_bytes_left_));
-    close_code_ = close_code_ << 8U | (static_cast<unsigned char>(payload.front()) ^ mask);
-    if (code_bytes_left_ == 1 && close_code_ >= end_of_codes) return true;
+std::optional<FrameGuard::Fault> FrameGuard::look_at_close(std::string_view payload) {
+  if (!closes_) return std::nullopt;
+  for (const char c : payload) {
+    // Control frames have the short form of a length, so the mask follows the fixed bytes.
+    const auto mask = header_.at(fixed_bytes + close_size_ % mask_bytes);
+    close_.at(close_size_++) = static_cast<char>(static_cast<unsigned char>(c) ^ mask);
   }
-  return false;
+  if (payload_left_ > 0) return std::nullopt;
+  const std::string_view all(close_.data(), close_size_), reason = all.substr(code_bytes);
+  const unsigned code = static_cast<unsigned char>(all[0]) << 8U | static_cast<unsigned char>(all[1]);
+  if (code >= end_of_codes) return Fault{"closes with a code that there is not", protocol_error};
+  if (utf8_end(reason) < reason.size()) return Fault{"closes with a reason that is not UTF-8", invalid_payload};
+  return std::nullopt;
 }
 
 }  // namespace semblante::net

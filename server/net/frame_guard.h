@@ -16,13 +16,13 @@ namespace semblante::net {
 /// Limits the frames of a WebSocket's client that end no message: control frames, which Beast answers by itself, and
 /// fragments, which Beast reads without end when they are empty; and the time in which a message arrives, as every byte
 /// counts as activity for Beast. Whole messages are the peer's to limit. Reads only the
-/// frames' headers, and the codes of close frames, as Beast takes those that no protocol can have; what else is wrong
-/// Beast refuses. Not synchronized.
+/// frames' headers, and close frames, as Beast takes codes that no protocol can have, and answers a reason that is not
+/// UTF-8 with the wrong code; what else is wrong Beast refuses. Not synchronized.
 class FrameGuard {
  public:
   using Clock = TokenBucket::Clock;
 
-  static constexpr std::uint16_t protocol_error = 1002, policy_violation = 1008;
+  static constexpr std::uint16_t protocol_error = 1002, invalid_payload = 1007, policy_violation = 1008;
 
   /// What ends the connection: words for the client, and the code of the close frame that has them.
   struct Fault {
@@ -44,8 +44,8 @@ class FrameGuard {
   [[nodiscard]] std::uint64_t payload_bytes() const;
   [[nodiscard]] std::optional<Fault> look_at_frames(std::string_view bytes, Clock::time_point now);
   [[nodiscard]] std::optional<Fault> count_frame(Clock::time_point now);
-  void expect_code();
-  [[nodiscard]] bool takes_wrong_code(std::string_view payload);
+  void expect_close();
+  [[nodiscard]] std::optional<Fault> look_at_close(std::string_view payload);
 
   const ServerLimits& limits_;
   TokenBucket controls_, fragments_;
@@ -56,8 +56,9 @@ class FrameGuard {
   std::uint64_t bytes_ = 0;                 ///< received since then
   std::array<unsigned char, 14> header_{};  ///< of the current frame, as far as it has arrived
   std::uint8_t header_size_ = 0;
-  std::uint8_t code_bytes_left_ = 0;  ///< of the code of the close frame that arrives
-  unsigned close_code_ = 0;           ///< as far as it has arrived
+  bool closes_ = false;            ///< the current frame is a close frame of a form that Beast takes
+  std::array<char, 125> close_{};  ///< its payload without the mask, as far as it has arrived
+  std::uint8_t close_size_ = 0;
   bool over_ = false;
 };
 

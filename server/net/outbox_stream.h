@@ -29,7 +29,7 @@ class OutboxStream {
 
   /// `tls` decrypts what is read; null for a plain socket. `on_fault` gets what `guard` finds, within a read. Nothing
   /// more is read then: a flood that is read until the connection is closed takes the thread that others need. Beast
-  /// does not get the bytes of a protocol fault, because it would answer them itself.
+  /// does not get the bytes of a wrong close frame, because it would answer them itself.
   OutboxStream(boost::asio::ip::tcp::socket socket, std::shared_ptr<TlsSession> tls, std::shared_ptr<Outbox> outbox,
                FrameGuard guard, std::function<void(const FrameGuard::Fault&)> on_fault)
       : socket_(std::move(socket)),
@@ -169,7 +169,7 @@ class OutboxStream {
       if (const auto fault = guard_.look({static_cast<const char*>(piece.data()), size})) {
         is_over_ = true;
         on_fault_(*fault);
-        if (fault->code == FrameGuard::protocol_error) return true;
+        if (fault->code != FrameGuard::policy_violation) return true;
       }
       count -= size;
     }

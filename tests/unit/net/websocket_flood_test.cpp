@@ -140,6 +140,35 @@ TEST(FrameGuard, FindsCodesThatThereAreNot_HoweverTheBytesArrive) {
   }
 }
 
+TEST(FrameGuard, FindsReasonsThatAreNotUtf8_HoweverTheBytesArrive) {
+  const ServerLimits limits;
+  const auto fault_of = [&](const std::string& bytes, std::size_t piece) {
+    FrameGuard guard(limits);
+    std::optional<FrameGuard::Fault> fault;
+    for (std::size_t at = 0; at < bytes.size() && !fault; at += piece)
+      fault = guard.look(std::string_view(bytes).substr(at, piece));
+    return fault ? fault->code : 0;
+  };
+  const auto close = [](const std::string& reason) { return Client::frame('\x88', "\x03\xE8" + reason); };
+  for (const std::size_t piece : {std::size_t{1}, std::size_t{3}, std::size_t{4096}}) {
+    SCOPED_TRACE(piece);
+    EXPECT_EQ(fault_of(close("caf\xC3\xA9"), piece), 0);
+    EXPECT_EQ(fault_of(close(std::string(123, 'x')), piece), 0);
+    EXPECT_EQ(fault_of(close("caf\xE9"), piece), FrameGuard::invalid_payload);
+    EXPECT_EQ(fault_of(close("caf\xC3"), piece), FrameGuard::invalid_payload) << "half a character";
+    EXPECT_EQ(fault_of(close(std::string(122, 'x') + "\xFF"), piece), FrameGuard::invalid_payload);
+    EXPECT_EQ(fault_of(Client::frame('\x89', "\x03\xE8\xFF"), piece), 0) << "a ping";
+  }
+}
+
+TEST_F(WebSocketFlood, ReasonThatIsNotUtf8_IsAnsweredWithInvalidPayload) {
+  const auto all = flood_with(Client::frame('\x88', "\x03\xE8\xFF"));
+  EXPECT_TRUE(
+      all.ends_with("\x03\xEF"
+                    "closes with a reason that is not UTF-8"))
+      << all;
+}
+
 TEST_F(WebSocketFlood, CodeThatThereIsNot_IsAnsweredWithAProtocolError) {
   const auto all = flood_with(Client::frame('\x88', "\x17\x70"));  // 6000
   EXPECT_TRUE(
