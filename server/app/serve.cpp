@@ -91,7 +91,9 @@ void set_up_process() {
   // What users upload is theirs: other accounts of this machine may not read the data folder, nor what is made in it.
   ::umask(S_IRWXG | S_IRWXO);
   // A write to a closed pipe or socket, or beyond the limit of a file's size (ulimit -f), must return an error.
-  for (const int number : {SIGPIPE, SIGXFSZ}) std::signal(number, SIG_IGN);
+  // SIGUSR1 and SIGUSR2 are what scripts for rotating logs send to any daemon; here they have no meaning, and must not
+  // end the process.
+  for (const int number : {SIGPIPE, SIGXFSZ, SIGUSR1, SIGUSR2}) std::signal(number, SIG_IGN);
 }
 
 void check_folders(const ServeOptions& options) {

@@ -93,7 +93,7 @@ int spawn(const std::vector<std::string>& arguments, const std::filesystem::path
   posix_spawnattr_setsigmask(&options.attributes, &none);
   sigset_t defaults;
   sigemptyset(&defaults);
-  for (const int number : {SIGTERM, SIGINT, SIGPIPE, SIGXFSZ}) sigaddset(&defaults, number);
+  for (const int number : {SIGTERM, SIGINT, SIGPIPE, SIGXFSZ, SIGUSR1, SIGUSR2}) sigaddset(&defaults, number);
   posix_spawnattr_setsigdefault(&options.attributes, &defaults);
 
   std::vector<char*> argv;

@@ -56,6 +56,16 @@ TEST(Drain, ClosedTerminal_StopsAsSigtermDoes) {
   EXPECT_EQ(received.close_code, 1001);
 }
 
+TEST(Drain, SignalsOfLogRotation_DoNotEndTheServer) {
+  const TemporaryFolder data;
+  ServerProcess server(data.path());
+  for (const int number : {SIGUSR1, SIGUSR2}) {
+    ASSERT_EQ(::kill(server.pid(), number), 0);
+    EXPECT_EQ(request(server.port(), "GET", "/healthz").status, 200);
+  }
+  EXPECT_EQ(server.end(SIGTERM), 0);
+}
+
 TEST(Drain, UnderLoad_NoSubscriberMissesWhatWasAccepted_AndTheRecordingIsWhole) {
   const TemporaryFolder data;
   std::string recording;
