@@ -20,6 +20,14 @@ http::Response file_response(Context& context, const http::Request& request, con
   const bool packed = is_text && http::wants_coding(request, "gzip");
   if (packed) http::mark_coding(response, "gzip");
   response = http::apply_conditions(request, std::move(response));
+  // A job may replace the artefact, and remove its file, before it is sent.
+  if (auto* file = std::get_if<http::FileBody>(&response.body)) {
+    file->open = std::make_shared<const http::OpenFile>(path);
+    if (file->open->descriptor() < 0) {
+      static_cast<void>(context.blobs.whole(artefact.sha256, artefact.bytes));  // throws if it is gone by now
+      file->open = nullptr;                                                     // who sends it says why
+    }
+  }
   if (packed) http::gzip_body(response);
   return response;
 }
@@ -27,15 +35,24 @@ http::Response file_response(Context& context, const http::Request& request, con
 namespace {
 
 http::Response model_artefact(Context& context, const http::Request& request, const std::string& name) {
-  const auto model = model_of(context, request);
-  const std::size_t level = model.package && is_of_package(name) ? level_of(request, *model.package) : 0;
-  const auto artefact = context.store.artefact(model.id, store::artefact_name(level, name));
-  if (!artefact) {
+  const auto find = [&] {
+    const auto model = model_of(context, request);
+    const std::size_t level = model.package && is_of_package(name) ? level_of(request, *model.package) : 0;
+    auto artefact = context.store.artefact(model.id, store::artefact_name(level, name));
+    if (artefact) return std::move(*artefact);
     const bool of_import = name == "preview.glb" || name == "report.json";
     refuse("not-found", "the model has no " + name + (of_import ? ": it is not imported" : ": it is not parametrized"));
+  };
+  for (auto artefact = find();;) {
+    try {
+      // The content under this name changes with each parametrization, so clients must revalidate by the ETag.
+      return file_response(context, request, artefact, "no-cache");
+    } catch (const store::DamagedBlob&) {
+      auto now = find();
+      if (now.sha256 == artefact.sha256) throw;
+      artefact = std::move(now);  // a job has replaced it since its record was read
+    }
   }
-  // The content under this name changes with each parametrization, so clients must revalidate by the ETag.
-  return file_response(context, request, *artefact, "no-cache");
 }
 
 }  // namespace

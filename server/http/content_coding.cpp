@@ -1,10 +1,10 @@
 #include "server/http/content_coding.h"
 
 #include <cerrno>
-#include <fstream>
 #include <new>
 #include <string>
 #include <system_error>
+#include <unistd.h>
 #include <zlib.h>
 
 #include "core/types/letter_case.h"
@@ -15,11 +15,14 @@ namespace {
 
 std::string read_body(const FileBody& file) {
   std::string bytes(file.length, '\0');
-  std::ifstream stream(file.path, std::ios::binary);
-  stream.seekg(static_cast<std::streamoff>(file.offset));
-  stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  if (static_cast<std::uint64_t>(stream.gcount()) != file.length)
-    throw std::system_error(EIO, std::generic_category(), file.path.string());
+  const auto open = file.open ? file.open : std::make_shared<const OpenFile>(file.path);
+  std::uint64_t read = 0;
+  while (read < file.length) {
+    const auto count =
+        ::pread(open->descriptor(), bytes.data() + read, file.length - read, static_cast<off_t>(file.offset + read));
+    if (count <= 0) throw std::system_error(EIO, std::generic_category(), file.path.string());
+    read += static_cast<std::uint64_t>(count);
+  }
   return bytes;
 }
 

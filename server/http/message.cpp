@@ -1,7 +1,9 @@
 #include "server/http/message.h"
 
 #include <algorithm>
+#include <fcntl.h>
 #include <system_error>
+#include <unistd.h>
 
 #include "core/types/letter_case.h"
 
@@ -15,6 +17,12 @@ bool CaseInsensitiveLess::operator()(std::string_view a, std::string_view b) con
 TemporaryFile::~TemporaryFile() {
   std::error_code ignored;
   std::filesystem::remove(path_, ignored);
+}
+
+OpenFile::OpenFile(const std::filesystem::path& path) : descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {}
+
+OpenFile::~OpenFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
 }
 
 std::optional<std::string_view> Request::header(std::string_view name) const {

@@ -66,12 +66,27 @@ struct Request {
   [[nodiscard]] std::optional<std::string_view> query_value(const std::string& name) const;
 };
 
+/// A file that is open for reading until the end of this.
+class OpenFile {
+ public:
+  explicit OpenFile(const std::filesystem::path& path);
+  ~OpenFile();
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+  /// -1 if it could not be opened; errno says why after the constructor.
+  [[nodiscard]] int descriptor() const { return descriptor_; }
+
+ private:
+  int descriptor_;
+};
+
 /// A range of bytes of a file that never changes.
 struct FileBody {
   std::filesystem::path path;
   std::uint64_t offset = 0;
   std::uint64_t length = 0;
   std::shared_ptr<TemporaryFile> owner = nullptr;  ///< of a file to be removed after sending
+  std::shared_ptr<const OpenFile> open = nullptr;  ///< of a file whose name may be gone when it is sent
 };
 
 /// Empty, bytes, a file, or a feed of events.

@@ -22,8 +22,17 @@ BodyFile::BodyFile(SharedState& state, const std::filesystem::path& path, int fl
   if (descriptor_ < 0) error_ = errno;
 }
 
+BodyFile::BodyFile(SharedState& state, const http::FileBody& body)
+    : count_(state.files_open),
+      is_counted_(count_within(state.files_open, state.config.limits.max_files)),
+      open_(is_counted_ && !body.open ? std::make_shared<const http::OpenFile>(body.path) : body.open) {
+  if (!is_counted_) return;
+  descriptor_ = open_->descriptor();
+  if (descriptor_ < 0) error_ = errno;
+}
+
 BodyFile::~BodyFile() {
-  if (descriptor_ >= 0) ::close(descriptor_);
+  if (descriptor_ >= 0 && !open_) ::close(descriptor_);
   if (is_counted_) --count_;
 }
 

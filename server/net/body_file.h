@@ -14,6 +14,8 @@ class BodyFile {
  public:
   /// `flags`: of open(); new files are readable for their owner only.
   BodyFile(SharedState& state, const std::filesystem::path& path, int flags);
+  /// Of an answer; what is open already stays so until the end of this.
+  BodyFile(SharedState& state, const http::FileBody& body);
   ~BodyFile();
   BodyFile(const BodyFile&) = delete;
   BodyFile& operator=(const BodyFile&) = delete;
@@ -28,6 +30,7 @@ class BodyFile {
  private:
   std::atomic<std::uint64_t>& count_;
   const bool is_counted_;
+  const std::shared_ptr<const http::OpenFile> open_;  ///< whose descriptor it is; null: its own
   int descriptor_ = -1, error_ = 0;
 };
 

@@ -143,7 +143,7 @@ asio::awaitable<bool> write_response(Transport& transport, const http::Response&
   const auto* file = std::get_if<http::FileBody>(&response.body);
   std::optional<BodyFile> opened;  // before the header, which must not promise a body that cannot be read
   if (file != nullptr) {
-    opened.emplace(state, file->path, O_RDONLY);
+    opened.emplace(state, *file);
     if (opened->descriptor() < 0) {
       if (!opened->is_over_limit())
         log::error("cannot open " + file->path.string() + ": " + std::strerror(opened->error()));

@@ -2,8 +2,10 @@
 // bad input gets a problem document that names what is wrong.
 
 #include <algorithm>
+#include <atomic>
 #include <csignal>
 #include <fstream>
+#include <future>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -379,6 +381,33 @@ TEST_F(Routes, PageOfModels_IsSentAgain_OnlyIfItChanged) {
   EXPECT_EQ(ask().body, "");
   import_grid(port(), 4);
   EXPECT_EQ(ask().status, 200);
+}
+
+/// What a request has found is sent, or what has replaced it since; never that the file is gone.
+TEST_F(Routes, ArtefactThatJobsReplace_IsAnsweredAtAnyTime) {
+  const std::string model = "/v1/models/" + import_grid(port());
+  request(port(), "PUT", model + "/feature-points", grid_points(), json_type);
+  const auto parametrize = [&](const std::string& weights) {
+    const auto job =
+        json_of(request(port(), "POST", model + "/parametrizations", R"({"weights":")" + weights + "\"}", json_type));
+    EXPECT_EQ(wait_for_job(port(), job.value("id", "")).value("state", ""), "done") << job;
+  };
+  parametrize("paper");
+  std::atomic<bool> over = false;
+  std::vector<std::future<std::string>> clients;
+  for (const char* const name : {"/weights", "/rig.json", "/weights", "/mesh.drc"})
+    clients.push_back(std::async(std::launch::async, [&, name] {
+      std::string faults;
+      while (!over) {
+        const auto reply = request(port(), "GET", model + name);
+        if (reply.status != 200 || reply.headers.at("etag") != "\"sha256-" + sha256_hex(reply.body) + "\"")
+          faults.append(name).append(" ").append(std::to_string(reply.status)).append("\n");
+      }
+      return faults;
+    }));
+  for (int round = 0; round < 30; ++round) parametrize(round % 2 == 0 ? "smooth" : "paper");
+  over = true;
+  for (auto& client : clients) EXPECT_EQ(client.get(), "");
 }
 
 TEST_F(Routes, RangeOfADocument_IsIgnored) {

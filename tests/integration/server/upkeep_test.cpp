@@ -216,13 +216,6 @@ TEST_F(Upkeep, Repair_MovesWhatAStartWouldMove_AndOnlyWhenNoServerRuns) {
   EXPECT_EQ(request(server.port(), "GET", "/v1/models/" + model_ + "/weights").status, 200);
 }
 
-/// A job that the restored server goes on with may replace an artefact between the answer to a request and the sending
-/// of its file: the server says then that it may be asked again.
-Reply fetch_artefact(int port, const std::string& path) {
-  const auto reply = request(port, "GET", path);
-  return reply.status == 503 && reply.headers.contains("retry-after") ? request(port, "GET", path) : reply;
-}
-
 /// Everything that a server says it has can be fetched: the artefacts by their hash, the recordings to their end.
 void expect_all_served(int port) {
   std::string after;
@@ -235,7 +228,7 @@ void expect_all_served(int port) {
       if (model["state"] == "parametrized")
         names.insert(names.end(), {"/mesh.drc", "/weights", "/rig.json", "/face.glb"});
       for (const auto& name : names) {
-        const auto reply = fetch_artefact(port, self + name);
+        const auto reply = request(port, "GET", self + name);
         EXPECT_EQ(reply.status, 200) << self + name << ": " << reply.body.substr(0, 500);
         EXPECT_EQ(reply.headers.at("etag"), "\"sha256-" + sha256_hex(reply.body) + "\"") << self + name;
       }

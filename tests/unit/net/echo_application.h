@@ -66,6 +66,11 @@ struct EchoApplication : http::Application {
       response.body = http::FileBody{file, 0, file_bytes};
       return response;
     }
+    if (request.path == "/removed") {
+      response.body = http::FileBody{file, 0, file_bytes, nullptr, std::make_shared<const http::OpenFile>(file)};
+      std::filesystem::remove(file);
+      return response;
+    }
     response.body = request.body;
     return response;
   }

@@ -331,6 +331,20 @@ TEST_F(ServerTest, FileThatCannotBeOpened_IsAnswered503_AndTheConnectionStays) {
   }
 }
 
+TEST_F(ServerTest, OpenFile_IsSent_WhenItsNameIsGone) {
+  std::string name = (std::filesystem::temp_directory_path() / "semblante-net-XXXXXX").string();
+  const int file = ::mkstemp(name.data());
+  ASSERT_EQ(::write(file, "hello", 5), 5);
+  ::close(file);
+  application_.file = name;
+  application_.file_bytes = 5;
+  const Client client(port_);
+  client.send(get("/removed"));
+  EXPECT_TRUE(client.read_head().starts_with("HTTP/1.1 200 "));
+  EXPECT_EQ(client.read(5), "hello");
+  EXPECT_FALSE(std::filesystem::exists(name));
+}
+
 /// Each download has a descriptor beside its connection's. Beyond their limit one is told so, before its header.
 TEST_F(ServerTest, FilesInTransfer_HaveALimit) {
   std::string name = (std::filesystem::temp_directory_path() / "semblante-net-XXXXXX").string();
