@@ -59,9 +59,8 @@ std::string_view next_token(std::string_view& rest) {
 
 std::string shown(std::string_view token) {
   constexpr std::size_t max_shown = 40;
-  std::size_t end = 0;
-  while (end < token.size() && end + utf8_step(token.substr(end)) <= max_shown) end += utf8_step(token.substr(end));
-  return "'" + printable(token.substr(0, end)) + (end < token.size() ? "...'" : "'");
+  const std::string_view beginning = beginning_of(token, max_shown);
+  return "'" + printable(beginning) + (beginning.size() < token.size() ? "...'" : "'");
 }
 
 std::optional<std::string_view> LineReader::next() {

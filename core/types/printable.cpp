@@ -71,6 +71,12 @@ std::size_t utf8_end(std::string_view text) {
   return at;
 }
 
+std::string_view beginning_of(std::string_view text, std::size_t most) {
+  std::size_t end = 0;
+  while (end < text.size() && end + utf8_step(text.substr(end)) <= most) end += utf8_step(text.substr(end));
+  return text.substr(0, end);
+}
+
 bool has_controls(std::string_view text) {
   for (; !text.empty(); text.remove_prefix(utf8_step(text)))
     if (is_control(text.substr(0, utf8_step(text)))) return true;

@@ -15,6 +15,9 @@ std::size_t utf8_step(std::string_view text);
 /// The byte at which `text` stops being valid UTF-8; its size if all of it is.
 std::size_t utf8_end(std::string_view text);
 
+/// The longest beginning of `text` that has whole characters and at most `most` bytes.
+std::string_view beginning_of(std::string_view text, std::size_t most);
+
 /// Whether valid UTF-8 has a control character, a break of lines, or a character that changes the direction of the
 /// text.
 bool has_controls(std::string_view text);

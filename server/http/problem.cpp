@@ -8,6 +8,7 @@
 
 #include "core/json/json_cursor.h"
 #include "core/json/read_json.h"
+#include "core/types/printable.h"
 
 namespace semblante::http {
 namespace {
@@ -98,16 +99,26 @@ std::string_view slug_of(ErrorCode code) {
   return "internal";
 }
 
+/// What a request names in a wrong place may be as long as its body, and must not come back as often as it is wrong.
+constexpr std::size_t most_detail = 2000, most_pointer = 500;
+
+std::string shortened(std::string_view text, std::size_t most) {
+  const std::string_view beginning = beginning_of(text, most);
+  return std::string(beginning) + (beginning.size() < text.size() ? "..." : "");
+}
+
 nlohmann::ordered_json document(const Problem& problem) {
   nlohmann::ordered_json json;
   json["type"] = "/problems/" + problem.slug;
   json["title"] = problem.title;
   json["status"] = problem.status;
-  json["detail"] = problem.detail;
-  if (!problem.pointer.empty()) json["pointer"] = problem.pointer;
+  json["detail"] = shortened(problem.detail, most_detail);
+  if (!problem.pointer.empty()) json["pointer"] = shortened(problem.pointer, most_pointer);
   if (!problem.faults.empty()) {
     auto& errors = json["errors"] = nlohmann::ordered_json::array();
-    for (const auto& fault : problem.faults) errors.push_back({{"pointer", fault.pointer}, {"detail", fault.detail}});
+    for (const auto& fault : problem.faults)
+      errors.push_back(
+          {{"pointer", shortened(fault.pointer, most_pointer)}, {"detail", shortened(fault.detail, most_detail)}});
   }
   if (problem.advice) json["advice"] = text_of(*problem.advice).name;
   if (problem.limit)

@@ -177,6 +177,18 @@ TEST(Problem, Json_ComesBackAsItWas) {
   EXPECT_EQ(problem_from_json("no json").slug, "internal");
 }
 
+TEST(Problem, OfAnEndlessName_HasItsBeginning) {
+  std::string name = "not a point ";
+  for (int i = 0; i < 100'000; ++i) name += "\u00e3";
+  Problem problem = make_problem("invalid-feature-point", name, "/points/" + name);
+  problem.faults.assign(2, {problem.pointer, problem.detail});
+  const std::string json = to_json(problem);
+  EXPECT_LT(json.size(), 9'000U);
+  const Problem back = problem_from_json(json);
+  EXPECT_EQ(back.pointer.substr(0, 20), "/points/not a point ");
+  EXPECT_EQ(back.detail.substr(back.detail.size() - 5), "\u00e3...");
+}
+
 TEST(Problem, Advice_IsThatOfTheErrorOrElseOfItsKind) {
   EXPECT_EQ(problem_from({ErrorCode::malformed, "line 3", "x"}).advice, Advice::export_again);
   EXPECT_EQ(problem_from({ErrorCode::malformed, "", "x", Advice::unpack}).advice, Advice::unpack);
