@@ -200,11 +200,15 @@ void make_skin_at(std::vector<Part>& parts, const Surface& surface, const glm::d
   if (!part.role_by_user) part.role = PartRole::skin;
 }
 
+/// From where a face has its pupils. Through a mask or a head with holes for its eyes the back of the head is seen.
+constexpr double deepest_pupil = 0.4;
+
 /// Of eyes that lie in the skin, or are painted on it.
 void find_pupils_by_likeness(Found& found, const FaceFront& front, const Similarity& frame) {
   for (const auto& [name, x] : {std::pair("3.5", 0.5), std::pair("3.6", -0.5)}) {
     const auto seen = front.column(x).at(0.0);
-    const glm::dvec3 pupil(x, 0.0, seen ? seen->z : 0.0);
+    const bool is_eye = seen && std::abs(seen->z) < deepest_pupil;
+    const glm::dvec3 pupil(x, 0.0, is_eye ? seen->z : 0.0);
     found.add_at(name, std::nullopt, frame.back(pupil), noise_of_likeness);
   }
 }
