@@ -10,20 +10,22 @@
 
 #include "core/tables/mpeg4.h"
 #include "core/types/feature_point_id.h"
+#include "core/types/places.h"
 
 namespace semblante {
 namespace {
 
-/// Of 44 files of others (heads, bodies, animals, robots), what was seen to be a face has 0.82 to 0.95, all else at
-/// most 0.80; one of three models of Suzanne, a monkey, has 0.85.
+/// Measured on 44 models by other people (heads, bodies, animals, robots): faces have 0.82 to 0.95, the others at most
+/// 0.80, except one of three models of Suzanne, a monkey, with 0.85.
 constexpr double least_likeness = 0.81;
-/// Of a face that is looked for in many positions: on the same files, all else has at most 0.83, a monkey 0.85.
+/// The bound of search_leaning_face(), which tries more positions: there models without a face have at most 0.83, and
+/// that monkey 0.85.
 constexpr double least_likeness_leaning = 0.86;
-/// Between the positions in which a leaning face is looked for, radians: a face is seen up to half of it aside.
+/// The angle between two positions of search_leaning_face(), radians: a face that is half a step off is still found.
 constexpr double roll_step = std::numbers::pi / 18.0;
 constexpr int rolls = 6;  ///< to either side
-/// The sine of the angle by which a fit may lean from where it started: things without a face have more likeness if
-/// they may lean as they like.
+/// The sine of the greatest angle between a fit and its start. Without this bound models without a face reach a greater
+/// likeness.
 constexpr double most_fitted_lean = 0.14;
 /// By how many times the relief may be stronger or weaker than that of people.
 constexpr double strongest = 2.0;
@@ -55,11 +57,10 @@ constexpr double last_fit_step = 0.004;
 
 /// A place of the front of a face, in the frame of the reference heads.
 using FacePlace = glm::dvec3;
-using MeanPlaces = std::array<std::optional<FacePlace>, feature_point_count>;
 
 /// The mean places of the points of the lips, the eyes, the brows, the cheeks and the outside of the nose: not of the
 /// jaw, which ends where the neck is seen.
-std::vector<FacePlace> places_of_front(const MeanPlaces& mean) {
+std::vector<FacePlace> places_of_front(const Places& mean) {
   constexpr std::array<std::string_view, 6> of_front = {"2.", "3.", "4.", "5.", "8.", "9."};
   constexpr std::array<std::string_view, 9> not_seen = {"2.1", "2.11", "2.12", "2.13", "2.14",
                                                         "9.8", "9.9",  "9.10", "9.11"};
@@ -127,7 +128,7 @@ struct Candidate {
 class FaceSearch {
  public:
   FaceSearch(const FrontRelief& relief, std::span<const ReferenceHead> references) : relief_(relief) {
-    const MeanPlaces mean = mean_of(references);
+    const Places mean = mean_of(references);
     places_ = places_of_front(mean);
     const auto place = [&](std::string_view name) {
       return mean[parse_feature_point(name)->value()].value_or(FacePlace(0.0));

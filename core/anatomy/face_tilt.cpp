@@ -8,11 +8,10 @@
 #include "core/anatomy/point_symmetry.h"
 #include "core/geometry/rotation.h"
 #include "core/tables/mpeg4.h"
+#include "core/types/places.h"
 
 namespace semblante {
 namespace {
-
-using Places = std::array<std::optional<glm::dvec3>, feature_point_count>;
 
 constexpr std::size_t least_points = 8;
 constexpr std::size_t least_pairs = 3;  ///< of points marked on both sides

@@ -1,14 +1,12 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <span>
 
 #include <glm/mat3x3.hpp>
-#include <glm/vec3.hpp>
 
 #include "core/anatomy/reference_heads.h"
-#include "core/types/feature_point_id.h"
+#include "core/types/places.h"
 
 namespace semblante {
 
@@ -19,7 +17,7 @@ namespace semblante {
 /// Yaw and roll are those of the best fit to the reference heads. How far upright faces of different people nod in the
 /// same fit differs by up to 7 degrees (as measured on 16 faces, each left out of the references), so the pitch of a
 /// head without yaw and roll is left as it is up to 12 degrees.
-std::optional<glm::dmat3> upright_rotation(std::array<std::optional<glm::dvec3>, feature_point_count> places,
+std::optional<glm::dmat3> upright_rotation(Places places,
                                            std::span<const ReferenceHead> references = reference_heads());
 
 }  // namespace semblante

@@ -6,6 +6,8 @@
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
 
+#include "core/types/places.h"
+
 namespace semblante {
 namespace {
 
@@ -180,7 +182,7 @@ bool OrderBounds::contains(const glm::dvec3& place) const {
   return glm::all(glm::greaterThanEqual(place, least)) && glm::all(glm::lessThanEqual(place, most));
 }
 
-OrderBounds order_bounds(FeaturePointId id, const std::array<std::optional<glm::dvec3>, feature_point_count>& places) {
+OrderBounds order_bounds(FeaturePointId id, const Places& places) {
   constexpr double endless = std::numeric_limits<double>::infinity();
   OrderBounds bounds{glm::dvec3(-endless), glm::dvec3(endless)};
   for (const PointOrder& order : point_orders()) {

@@ -1,13 +1,12 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <optional>
 #include <span>
 
 #include <glm/vec3.hpp>
 
 #include "core/types/feature_point_id.h"
+#include "core/types/places.h"
 
 namespace semblante {
 
@@ -36,6 +35,6 @@ struct OrderBounds {
 };
 
 /// `places` by FeaturePointId, in an upright frame with ES0 as unit. The box includes the tolerance.
-OrderBounds order_bounds(FeaturePointId id, const std::array<std::optional<glm::dvec3>, feature_point_count>& places);
+OrderBounds order_bounds(FeaturePointId id, const Places& places);
 
 }  // namespace semblante

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/tables/mpeg4.h"
+#include "core/types/places.h"
 
 namespace semblante {
 namespace {
@@ -44,8 +45,7 @@ MirrorPlane fit(const std::vector<Candidate>& candidates, std::size_t count) {
 
 }  // namespace
 
-std::optional<PointSymmetry> symmetry_of_points(
-    const std::array<std::optional<glm::dvec3>, feature_point_count>& places) {
+std::optional<PointSymmetry> symmetry_of_points(const Places& places) {
   std::vector<Candidate> candidates;
   std::vector<double> lengths;
   for (std::size_t id = 0; id < feature_point_count; ++id) {

@@ -1,12 +1,11 @@
 #pragma once
 
-#include <array>
 #include <optional>
 
 #include <glm/vec3.hpp>
 
 #include "core/anatomy/mirror_plane.h"
-#include "core/types/feature_point_id.h"
+#include "core/types/places.h"
 
 namespace semblante {
 
@@ -20,7 +19,6 @@ struct PointSymmetry {
 
 /// Robust: the three tenths of the points that are farthest from their mirror images are excluded. The face looks
 /// roughly along +Z with +Y up. Empty with too few pairs, or if the points have no plane of symmetry.
-std::optional<PointSymmetry> symmetry_of_points(
-    const std::array<std::optional<glm::dvec3>, feature_point_count>& places);
+std::optional<PointSymmetry> symmetry_of_points(const Places& places);
 
 }  // namespace semblante

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/tables/mpeg4.h"
+#include "core/types/places.h"
 
 namespace semblante {
 namespace {
@@ -105,8 +106,8 @@ std::span<const ReferenceHead> reference_heads() {
   return heads;
 }
 
-std::array<std::optional<glm::dvec3>, feature_point_count> mean_of(std::span<const ReferenceHead> references) {
-  std::array<std::optional<glm::dvec3>, feature_point_count> mean;
+Places mean_of(std::span<const ReferenceHead> references) {
+  Places mean;
   for (std::size_t id = 0; id < feature_point_count; ++id) {
     glm::dvec3 sum{0.0};
     double count = 0.0;
@@ -120,8 +121,7 @@ std::array<std::optional<glm::dvec3>, feature_point_count> mean_of(std::span<con
   return mean;
 }
 
-std::optional<Similarity> fit_to_references(const std::array<std::optional<glm::dvec3>, feature_point_count>& known,
-                                            std::span<const ReferenceHead> references) {
+std::optional<Similarity> fit_to_references(const Places& known, std::span<const ReferenceHead> references) {
   const auto mean = mean_of(references);
   std::vector<glm::dvec3> from;
   std::vector<glm::dvec3> to;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -9,6 +8,7 @@
 
 #include "core/geometry/similarity.h"
 #include "core/types/feature_point_id.h"
+#include "core/types/places.h"
 
 namespace semblante {
 
@@ -17,7 +17,7 @@ namespace semblante {
 /// are missing.
 struct ReferenceHead {
   std::string_view name;
-  std::array<std::optional<glm::dvec3>, feature_point_count> points;  ///< by FeaturePointId
+  Places points;  ///< by FeaturePointId
 };
 
 /// The reference heads. README.md lists their sources.
@@ -25,10 +25,10 @@ std::span<const ReferenceHead> reference_heads();
 
 /// The similarity from the known points of a face, in any axes, to those of a reference head, by the mean of
 /// `references`. Empty if the points do not determine it.
-std::optional<Similarity> fit_to_references(const std::array<std::optional<glm::dvec3>, feature_point_count>& known,
+std::optional<Similarity> fit_to_references(const Places& known,
                                             std::span<const ReferenceHead> references = reference_heads());
 
 /// The mean of each point over the references that have it.
-std::array<std::optional<glm::dvec3>, feature_point_count> mean_of(std::span<const ReferenceHead> references);
+Places mean_of(std::span<const ReferenceHead> references);
 
 }  // namespace semblante

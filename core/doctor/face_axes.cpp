@@ -8,11 +8,10 @@
 #include <glm/geometric.hpp>
 
 #include "core/tables/mpeg4.h"
+#include "core/types/places.h"
 
 namespace semblante {
 namespace {
-
-using Points = std::array<std::optional<glm::dvec3>, feature_point_count>;
 
 /// cos 60 degrees: pairs of one face are roughly parallel; a pair that is not is excluded from the axis.
 constexpr double same_way = 0.5;
@@ -26,7 +25,7 @@ double middle(std::vector<double> values) {
 }
 
 /// The median of each coordinate of the marked points, which is robust against a misplaced point.
-std::optional<glm::dvec3> middle_of(const Points& points, std::span<const std::string_view> names) {
+std::optional<glm::dvec3> middle_of(const Places& points, std::span<const std::string_view> names) {
   std::array<std::vector<double>, 3> values;
   for (const std::string_view name : names) {
     const auto& place = points[index_of(name)];
@@ -42,7 +41,7 @@ struct Pair {
   glm::dvec3 across;  ///< from the right point to the left one
 };
 
-std::vector<Pair> marked_pairs(const Points& points) {
+std::vector<Pair> marked_pairs(const Places& points) {
   std::vector<Pair> pairs;
   for (std::uint8_t id = 0; id < feature_point_count; ++id) {
     const auto& info = mpeg4::feature_points[id];
@@ -84,7 +83,7 @@ std::optional<glm::dvec3> across(std::optional<glm::dvec3> way, const glm::dvec3
   return glm::normalize(rest);
 }
 
-std::optional<glm::dvec3> way_between(const Points& points, std::span<const std::string_view> from,
+std::optional<glm::dvec3> way_between(const Places& points, std::span<const std::string_view> from,
                                       std::span<const std::string_view> to) {
   const auto a = middle_of(points, from);
   const auto b = middle_of(points, to);
@@ -110,7 +109,7 @@ glm::dvec3 snapped(const glm::dvec3& way) {
   return unit;
 }
 
-std::optional<double> separation_of_eyes(const Points& points, const glm::dvec3& left) {
+std::optional<double> separation_of_eyes(const Places& points, const glm::dvec3& left) {
   // A point of the left eye, or the middle of two, compared with the same of the right eye.
   constexpr std::array<std::array<std::string_view, 2>, 4> ways = {
       {{"3.5", "3.5"}, {"3.7", "3.11"}, {"3.1", "3.3"}, {"4.1", "4.5"}}};
@@ -135,7 +134,7 @@ std::optional<double> separation_of_eyes(const Points& points, const glm::dvec3&
 const std::optional<glm::dvec3>& FaceAxes::place(std::string_view name) const { return places[index_of(name)]; }
 
 FaceAxes fit_face_axes(const FeaturePointSet& points) {
-  Points marked;
+  Places marked;
   for (const FeaturePoint& point : points) marked[point.id.value()] = glm::dvec3(point.position);
   const std::vector<Pair> pairs = marked_pairs(marked);
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -9,6 +8,7 @@
 
 #include "core/anatomy/point_symmetry.h"
 #include "core/types/feature_points.h"
+#include "core/types/places.h"
 
 namespace semblante {
 
@@ -23,7 +23,7 @@ struct FaceAxes {
   /// point. Empty with too few points around the eyes.
   std::optional<double> eye_separation;
   /// Every marked point: x along the model axis nearest to `left`, y to `up`, z to `forward`; model units.
-  std::array<std::optional<glm::dvec3>, feature_point_count> places;
+  Places places;
 
   /// The plane of symmetry of `places`, if they have one.
   std::optional<PointSymmetry> symmetry;

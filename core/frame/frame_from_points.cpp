@@ -9,6 +9,7 @@
 #include "core/frame/frame_guess.h"
 #include "core/frame/human_size.h"
 #include "core/tables/mpeg4.h"
+#include "core/types/places.h"
 #include "core/types/printable.h"
 
 namespace semblante {
@@ -95,9 +96,8 @@ glm::dvec3 front_of(std::span<const PlacedPoint> points) {
 
 bool is_known(const glm::dvec3& direction) { return direction != glm::dvec3(0.0); }
 
-std::array<std::optional<glm::dvec3>, feature_point_count> turned(std::span<const PlacedPoint> points,
-                                                                  const glm::dmat3& rotation) {
-  std::array<std::optional<glm::dvec3>, feature_point_count> places;
+Places turned(std::span<const PlacedPoint> points, const glm::dmat3& rotation) {
+  Places places;
   for (const PlacedPoint& point : points) places[point.id.value()] = rotation * point.position;
   return places;
 }

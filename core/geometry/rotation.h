@@ -5,7 +5,7 @@
 
 namespace semblante {
 
-/// The smallest rotation from one unit vector to another, which is not its opposite.
+/// The smallest rotation that turns the unit vector `from` into the unit vector `to`. They must not be opposite.
 glm::dmat3 rotation_between(const glm::dvec3& from, const glm::dvec3& to);
 
 /// The angle of a rotation, degrees.

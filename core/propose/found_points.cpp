@@ -24,6 +24,7 @@
 #include "core/propose/seen_mouth.h"
 #include "core/propose/seen_opening.h"
 #include "core/types/feature_point_id.h"
+#include "core/types/places.h"
 
 namespace semblante {
 namespace {
@@ -103,6 +104,11 @@ class Found {
   std::vector<FoundPoint> points_;
 };
 
+/// The cosine of the angle between the direction from eye to eye and X: below the first the head is refused, from the
+/// second on it is taken for upright at first.
+constexpr double least_side_by_side = 0.5;
+constexpr double clearly_side_by_side = 0.95;
+
 struct PointsOfEye {
   std::string_view pupil, upper, lower, left, right;
 };
@@ -110,10 +116,6 @@ constexpr PointsOfEye points_of_left_eye = {"3.5", "3.1", "3.3", "3.7", "3.11"};
 constexpr PointsOfEye points_of_right_eye = {"3.6", "3.2", "3.4", "3.8", "3.12"};
 
 glm::dvec3 centre_of(const Part& part) { return 0.5 * (glm::dvec3(part.box_min) + glm::dvec3(part.box_max)); }
-/// Cosines of the angle between the direction from eye to eye and X.
-constexpr double least_side_by_side = 0.5;
-constexpr double clearly_side_by_side = 0.95;
-
 double radius_of(const Part& eye, const Similarity& frame) {
   return 0.5 * frame.scale * double(eye.box_max.y - eye.box_min.y);
 }
@@ -134,7 +136,8 @@ Result<Eyeballs> find_eyeballs(std::span<const Part> parts) {
   return eyes;
 }
 
-/// Upright but for what the points of the face will show: faces are not quite symmetric.
+/// The first frame of the face. Small angles between the eyes are left to the points: eyes of one face differ in
+/// height.
 Similarity frame_between(const Eyeballs& eyes) {
   const glm::dvec3 left = centre_of(*eyes.left);
   const glm::dvec3 right = centre_of(*eyes.right);
@@ -200,7 +203,8 @@ void make_skin_at(std::vector<Part>& parts, const Surface& surface, const glm::d
   if (!part.role_by_user) part.role = PartRole::skin;
 }
 
-/// From where a face has its pupils. Through a mask or a head with holes for its eyes the back of the head is seen.
+/// The greatest distance of a pupil from the plane of the frame's origin. What is deeper is the back of the head, seen
+/// through a hole for the eye.
 constexpr double deepest_pupil = 0.4;
 
 /// Of eyes that lie in the skin, or are painted on it.
@@ -230,7 +234,7 @@ constexpr int most_turns = 3;
 /// The rotation by which points that were found in `frame` show that the face is not upright there.
 std::optional<glm::dmat3> turn_by(std::span<const FoundPoint> points, const Similarity& frame,
                                   std::span<const ReferenceHead> references) {
-  std::array<std::optional<glm::dvec3>, feature_point_count> places;
+  Places places;
   for (const FoundPoint& f : points) places[f.point.id.value()] = frame(glm::dvec3(f.point.position));
   return upright_rotation(places, references);
 }

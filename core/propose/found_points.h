@@ -18,8 +18,8 @@ struct FoundPoint {
   double noise = 0.0;  ///< standard deviation, in ES0
 };
 
-// Both for a head that is upright but for a tilt: where the points, or the likeness, show that the face looks elsewhere
-// than along +Z, it is looked at again from there. Points rising by id, no two at one vertex.
+// Both functions turn a tilted face before they return: if the first points, or the relief, show that it does not look
+// along +Z, the points are found again in the turned frame. Points rising by id, no two at one vertex.
 
 /// The points that are seen on a face with eyeballs: pupils; edges and corners of the eyes where the balls are seen
 /// between the lids; edges and corners of the mouth where lips touch that are far from each other along the surface;

@@ -1,16 +1,11 @@
 #pragma once
 
-#include <array>
-#include <optional>
-
 #include <glm/vec3.hpp>
 
 #include "core/types/feature_point_id.h"
+#include "core/types/places.h"
 
 namespace semblante {
-
-/// Places by FeaturePointId, in an upright frame.
-using Places = std::array<std::optional<glm::dvec3>, feature_point_count>;
 
 /// Applies MPEG-4's position relations to `place` of point `id`, if the related points are in `settled`: half way
 /// between two points along one axis, or level with another. The lower lip is nearly as high half way along it as in

@@ -4,10 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include "core/types/places.h"
+
 namespace semblante {
 namespace {
 
-using Places = std::array<std::optional<glm::dvec3>, feature_point_count>;
 constexpr double endless = std::numeric_limits<double>::infinity();
 
 FeaturePointId id(const char* name) { return *parse_feature_point(name); }

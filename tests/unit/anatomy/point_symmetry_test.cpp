@@ -9,11 +9,10 @@
 #include <gtest/gtest.h>
 
 #include "core/anatomy/reference_heads.h"
+#include "core/types/places.h"
 
 namespace semblante {
 namespace {
-
-using Places = std::array<std::optional<glm::dvec3>, feature_point_count>;
 
 /// A face of no human proportions, turned by `degrees` to its left.
 Places creature(double degrees) {

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "core/tables/mpeg4.h"
+#include "core/types/places.h"
 #include "tests/unit/frame/turned_heads.h"
 
 namespace semblante::test {
@@ -26,7 +27,7 @@ std::vector<PlacedPoint> rotated(std::vector<PlacedPoint> points, const glm::dma
 }
 
 std::optional<glm::dmat3> upright_rotation_of(std::span<const PlacedPoint> points) {
-  std::array<std::optional<glm::dvec3>, feature_point_count> places;
+  Places places;
   for (const PlacedPoint& point : points) places[point.id.value()] = point.position;
   return upright_rotation(places);
 }
