@@ -1,6 +1,7 @@
 #include "server/http/message.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <fcntl.h>
 #include <system_error>
 #include <unistd.h>
@@ -19,7 +20,10 @@ TemporaryFile::~TemporaryFile() {
   std::filesystem::remove(path_, ignored);
 }
 
-OpenFile::OpenFile(const std::filesystem::path& path) : descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {}
+OpenFile::OpenFile(const std::filesystem::path& path) : OpenFile(path, O_RDONLY) {}
+
+OpenFile::OpenFile(const std::filesystem::path& path, int flags)
+    : descriptor_(::open(path.c_str(), flags | O_CLOEXEC, 0600)), error_(descriptor_ < 0 ? errno : 0) {}
 
 OpenFile::~OpenFile() {
   if (descriptor_ >= 0) ::close(descriptor_);

@@ -49,7 +49,7 @@ struct Request {
   std::string path;                           ///< percent-decoded, without the query
   std::string target;                         ///< path and query as sent
   std::map<std::string, std::string> query;   ///< percent-decoded
-  std::string repeated;                       ///< the first key that the query has twice; its first value is in `query`
+  std::string repeated;                       ///< a key that occurs more than once in the query; empty: none does
   Headers headers;                            ///< without hop-by-hop meaning
   std::string body;                           ///< if it is kept in memory
   std::shared_ptr<TemporaryFile> body_file;   ///< if the route keeps it on disk
@@ -66,18 +66,24 @@ struct Request {
   [[nodiscard]] std::optional<std::string_view> query_value(const std::string& name) const;
 };
 
-/// A file that is open for reading until the end of this.
+/// A file that is open until the end of this.
 class OpenFile {
  public:
+  /// For reading.
   explicit OpenFile(const std::filesystem::path& path);
+  /// `flags`: of open(); new files are readable for their owner only.
+  OpenFile(const std::filesystem::path& path, int flags);
   ~OpenFile();
   OpenFile(const OpenFile&) = delete;
   OpenFile& operator=(const OpenFile&) = delete;
-  /// -1 if it could not be opened; errno says why after the constructor.
+  /// -1 if it could not be opened.
   [[nodiscard]] int descriptor() const { return descriptor_; }
+  /// errno of open(); 0 if it is open.
+  [[nodiscard]] int error() const { return error_; }
 
  private:
   int descriptor_;
+  int error_;
 };
 
 /// A range of bytes of a file that never changes.
@@ -86,7 +92,7 @@ struct FileBody {
   std::uint64_t offset = 0;
   std::uint64_t length = 0;
   std::shared_ptr<TemporaryFile> owner = nullptr;  ///< of a file to be removed after sending
-  std::shared_ptr<const OpenFile> open = nullptr;  ///< of a file whose name may be gone when it is sent
+  std::shared_ptr<const OpenFile> open = nullptr;  ///< if the file may be removed before it is sent; else null
 };
 
 /// Empty, bytes, a file, or a feed of events.

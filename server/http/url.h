@@ -11,7 +11,7 @@ namespace semblante::http {
 struct Target {
   std::string path;  ///< percent-decoded; starts with '/'
   std::map<std::string, std::string> query;
-  std::string repeated;  ///< the first key that the query has twice; its first value is in `query`
+  std::string repeated;  ///< a key that occurs more than once; `query` has its first value. Empty: none does
 };
 
 /// nullopt for anything that is not an origin-form target: no leading '/', a broken escape, a NUL byte.

@@ -1,8 +1,6 @@
 #include "server/net/body_file.h"
 
-#include <cerrno>
-#include <fcntl.h>
-#include <unistd.h>
+#include <memory>
 
 namespace semblante::net {
 namespace {
@@ -17,22 +15,15 @@ bool count_within(std::atomic<std::uint64_t>& count, std::uint64_t limit) {
 
 BodyFile::BodyFile(SharedState& state, const std::filesystem::path& path, int flags)
     : count_(state.files_open), is_counted_(count_within(state.files_open, state.config.limits.max_files)) {
-  if (!is_counted_) return;
-  descriptor_ = ::open(path.c_str(), flags | O_CLOEXEC, 0600);
-  if (descriptor_ < 0) error_ = errno;
+  if (is_counted_) open_ = std::make_shared<const http::OpenFile>(path, flags);
 }
 
 BodyFile::BodyFile(SharedState& state, const http::FileBody& body)
-    : count_(state.files_open),
-      is_counted_(count_within(state.files_open, state.config.limits.max_files)),
-      open_(is_counted_ && !body.open ? std::make_shared<const http::OpenFile>(body.path) : body.open) {
-  if (!is_counted_) return;
-  descriptor_ = open_->descriptor();
-  if (descriptor_ < 0) error_ = errno;
+    : count_(state.files_open), is_counted_(count_within(state.files_open, state.config.limits.max_files)) {
+  if (is_counted_) open_ = body.open ? body.open : std::make_shared<const http::OpenFile>(body.path);
 }
 
 BodyFile::~BodyFile() {
-  if (descriptor_ >= 0 && !open_) ::close(descriptor_);
   if (is_counted_) --count_;
 }
 

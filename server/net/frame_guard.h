@@ -15,9 +15,9 @@ namespace semblante::net {
 
 /// Limits the frames of a WebSocket's client that end no message: control frames, which Beast answers by itself, and
 /// fragments, which Beast reads without end when they are empty; and the time in which a message arrives, as every byte
-/// counts as activity for Beast. Whole messages are the peer's to limit. Reads only the
-/// frames' headers, and close frames, as Beast takes codes that no protocol can have, and answers a reason that is not
-/// UTF-8 with the wrong code; what else is wrong Beast refuses. Not synchronized.
+/// counts as activity for Beast. Whole messages are the peer's to limit. Reads the frames' headers, and the payload of
+/// close frames: Beast accepts close codes that no protocol can have, and answers a reason that is not UTF-8 with the
+/// wrong code. Beast refuses all other faults. Not synchronized.
 class FrameGuard {
  public:
   using Clock = TokenBucket::Clock;
