@@ -46,8 +46,8 @@ std::string render_text_prime(const Json& prime) {
 
 namespace semblante {
 
-/// The texts that both sides of a packed text know (SPEC.md, "Packed text"), coded one after another by the model that
-/// is to learn from them.
+/// The texts that encoder and decoder know in advance (SPEC.md, "Packed text"), compressed by the model of packed texts
+/// itself: decoding them trains it.
 inline constexpr std::size_t text_prime_count = )" +
          std::to_string(texts.size()) + ";\ninline constexpr auto text_prime = std::to_array<std::uint8_t>({\n" +
          numbers(Json(packed(texts)), "    ") + "});\n\n}  // namespace semblante\n";

@@ -8,8 +8,8 @@
 
 namespace semblante {
 
-/// The texts that both sides of a packed text know (SPEC.md, "Packed text"), coded one after another by the model that
-/// is to learn from them.
+/// The texts that encoder and decoder know in advance (SPEC.md, "Packed text"), compressed by the model of packed texts
+/// itself: decoding them trains it.
 inline constexpr std::size_t text_prime_count = 82;
 inline constexpr auto text_prime = std::to_array<std::uint8_t>({
     154, 127, 208, 204, 25, 205, 41, 234, 69, 96, 228, 149, 14, 91, 30, 88, 199, 118, 156, 121,
