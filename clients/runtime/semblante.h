@@ -38,8 +38,8 @@
  *   memory.
  * - Frames and poses are the kernel's own (semblante_kernel.h); its functions are exported as well.
  *
- * Numbers of a frame. Every FAP with its unit, axis and range: protocol/SPEC.md, section 1.5, which a server shows at
- * /v1/protocol/SPEC.md. FAPs 19 and 20 at 1024 close the upper lids, as a blink does.
+ * The numbers in a frame. Section 1.5 of protocol/SPEC.md, which a server has at /v1/protocol/SPEC.md, lists every FAP
+ * with its unit, axis and range. FAPs 19 and 20 at 1024 close the upper lids, as a blink does.
  *   viseme: 0 sil, 1 p_b_m, 2 f_v, 3 th, 4 t_d, 5 k_g, 6 ch_j_sh, 7 s_z, 8 n_l, 9 r, 10 a, 11 e, 12 i, 13 o, 14 u
  *   expression: 0 none, 1 joy, 2 sadness, 3 anger, 4 fear, 5 disgust, 6 surprise
  */
